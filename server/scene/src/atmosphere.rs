@@ -1,0 +1,123 @@
+//! The air. Default values: Bruneton and Neyret 2008, Hillaire 2020 (Earth, clear).
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// The air round the planet: molecules, aerosols, ozone. A part set to `null` is absent.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct Atmosphere {
+    /// How it is computed.
+    pub method: Method,
+    /// Which orders of scattering count.
+    pub orders: Orders,
+    /// Height above the ground where the air ends, metres.
+    #[schemars(range(min = 1e3, max = 1e6))]
+    pub top_m: f64,
+    /// Multiplies every density.
+    #[schemars(range(min = 0.0, max = 100.0))]
+    pub density_factor: f64,
+    /// Molecules.
+    pub rayleigh: Option<Rayleigh>,
+    /// Aerosols.
+    pub mie: Option<Mie>,
+    /// Ozone, which absorbs only.
+    pub ozone: Option<Ozone>,
+}
+
+impl Default for Atmosphere {
+    fn default() -> Self {
+        Self {
+            method: Method::Lut,
+            orders: Orders::Multiple,
+            top_m: 100_000.0,
+            density_factor: 1.0,
+            rayleigh: Some(Rayleigh::default()),
+            mie: Some(Mie::default()),
+            ozone: Some(Ozone::default()),
+        }
+    }
+}
+
+/// How the light in the air is computed.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Method {
+    /// Tables of transmittance, multiple scattering and sky radiance (Hillaire 2020).
+    #[default]
+    Lut,
+}
+
+/// Which orders of scattering count.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Orders {
+    /// Light scattered once; the ground is lit by the sun alone.
+    Single,
+    /// All orders, and the light between ground and air.
+    #[default]
+    Multiple,
+}
+
+/// Molecules: density falls as e^(-h / scale height).
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct Rayleigh {
+    /// Scattering coefficient at the ground in R, G and B, 1/m.
+    #[schemars(inner(range(min = 0.0, max = 0.1)))]
+    pub scattering_per_m: [f64; 3],
+    /// Height over which the density falls to 1/e, metres.
+    #[schemars(range(min = 10.0, max = 1e5))]
+    pub scale_height_m: f64,
+}
+
+impl Default for Rayleigh {
+    fn default() -> Self {
+        Self { scattering_per_m: [5.802e-6, 13.558e-6, 33.1e-6], scale_height_m: 8_000.0 }
+    }
+}
+
+/// Aerosols: grey, with a forward peak (Cornette and Shanks 1992).
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct Mie {
+    /// Scattering coefficient at the ground, 1/m.
+    #[schemars(range(min = 0.0, max = 0.1))]
+    pub scattering_per_m: f64,
+    /// Absorption coefficient at the ground, 1/m.
+    #[schemars(range(min = 0.0, max = 0.1))]
+    pub absorption_per_m: f64,
+    /// Height over which the density falls to 1/e, metres.
+    #[schemars(range(min = 10.0, max = 1e5))]
+    pub scale_height_m: f64,
+    /// Asymmetry g of the phase function: 0 even, towards 1 forward, towards -1 backward.
+    #[schemars(range(min = -0.999, max = 0.999))]
+    pub asymmetry: f64,
+}
+
+impl Default for Mie {
+    fn default() -> Self {
+        Self { scattering_per_m: 3.996e-6, absorption_per_m: 0.444e-6, scale_height_m: 1_200.0, asymmetry: 0.8 }
+    }
+}
+
+/// Ozone: a layer whose density rises and falls linearly about its centre.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct Ozone {
+    /// Absorption coefficient at the centre in R, G and B, 1/m.
+    #[schemars(inner(range(min = 0.0, max = 0.1)))]
+    pub absorption_per_m: [f64; 3],
+    /// Height of the centre, metres.
+    #[schemars(range(min = 0.0, max = 1e6))]
+    pub centre_m: f64,
+    /// Distance from the centre to where the layer ends, metres.
+    #[schemars(range(min = 1.0, max = 1e6))]
+    pub half_width_m: f64,
+}
+
+impl Default for Ozone {
+    fn default() -> Self {
+        Self { absorption_per_m: [0.650e-6, 1.881e-6, 0.085e-6], centre_m: 25_000.0, half_width_m: 15_000.0 }
+    }
+}

@@ -1,0 +1,37 @@
+//! The scene document.
+
+use crate::{atmosphere::Atmosphere, camera::Camera, display::Display, planet::Planet, sun::Sun};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// One sky: who looks from where, sun, planet, air, and how it is shown. `{}` is a fair-weather afternoon.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct Scene {
+    /// Time since the scene's beginning, seconds. Moves the sun where it is given by time and place.
+    #[schemars(range(min = -1e9, max = 1e9))]
+    pub time_s: f64,
+    /// The observer.
+    pub camera: Camera,
+    /// The sun.
+    pub sun: Sun,
+    /// The ground's sphere.
+    pub planet: Planet,
+    /// The air; `null` is vacuum.
+    pub atmosphere: Option<Atmosphere>,
+    /// From radiance to a picture.
+    pub display: Display,
+}
+
+impl Default for Scene {
+    fn default() -> Self {
+        Self {
+            time_s: 0.0,
+            camera: Camera::default(),
+            sun: Sun::default(),
+            planet: Planet::default(),
+            atmosphere: Some(Atmosphere::default()),
+            display: Display::default(),
+        }
+    }
+}

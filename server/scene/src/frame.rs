@@ -1,0 +1,71 @@
+//! A request for one frame.
+
+use crate::document::Scene;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// The longest side of a frame, pixels.
+pub const MAX_SIDE_PX: u32 = 16_384;
+
+/// One frame of a scene.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct FrameRequest {
+    /// What is seen.
+    pub scene: Scene,
+    /// Width, pixels.
+    #[schemars(range(min = 1, max = 16_384))]
+    pub width_px: u32,
+    /// Height, pixels.
+    #[schemars(range(min = 1, max = 16_384))]
+    pub height_px: u32,
+    /// Kind of file. Without it, the `Accept` header or the file's name decides, else PNG.
+    pub format: Option<Format>,
+    /// How much work goes into it.
+    pub quality: Quality,
+}
+
+impl Default for FrameRequest {
+    fn default() -> Self {
+        Self { scene: Scene::default(), width_px: 1280, height_px: 720, format: None, quality: Quality::Final }
+    }
+}
+
+/// Kind of file. Display formats hold the picture; linear formats hold radiance in W/m²/sr before exposure.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Format {
+    /// 8-bit sRGB, lossless.
+    Png,
+    /// 8-bit sRGB.
+    Jpeg,
+    /// OpenEXR, half floats, ZIP; what renderers expect.
+    Exr,
+    /// OpenEXR, 32-bit floats, ZIP.
+    ExrFloat,
+    /// Radiance RGBE.
+    Hdr,
+    /// NumPy array of shape (height, width, 3), 32-bit floats.
+    Npy,
+    /// 32-bit little-endian floats, R G B, rows from the top.
+    Raw,
+}
+
+impl Format {
+    /// True where the file holds radiance rather than the picture.
+    #[must_use]
+    pub const fn is_linear(self) -> bool {
+        !matches!(self, Self::Png | Self::Jpeg)
+    }
+}
+
+/// How much work goes into a frame.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Quality {
+    /// Small tables, at once.
+    Preview,
+    /// All detail.
+    #[default]
+    Final,
+}

@@ -1,0 +1,27 @@
+//! The vocabulary of Welkin: the scene document, what may be asked of a renderer, and what it answers.
+//!
+//! Types here carry user units, named in the field (`_m`, `_deg`, `_per_m`). Nothing here knows of a GPU or of HTTP.
+//!
+//! World frame: x east, y north, z up, metres, origin on the ground below the observer's home. Azimuths are
+//! clockwise from north, elevations up from the horizon.
+
+pub mod atmosphere;
+pub mod camera;
+pub mod direction;
+pub mod display;
+pub mod document;
+pub mod frame;
+pub mod planet;
+pub mod probe;
+pub mod renderer;
+pub mod sun;
+
+pub use atmosphere::{Atmosphere, Method, Mie, Orders, Ozone, Rayleigh};
+pub use camera::{Camera, FisheyeMapping, Projection};
+pub use direction::Direction;
+pub use display::{Display, Exposure, ToneCurve};
+pub use document::Scene;
+pub use frame::{Format, FrameRequest, Quality};
+pub use planet::Planet;
+pub use probe::{Irradiance, ProbeAnswer, ProbeRequest, SunPlace};
+pub use sun::{Sun, SunPosition};

@@ -1,0 +1,145 @@
+//! What may be asked of a renderer, whichever it is. The service and the workers know only this.
+
+use crate::{
+    document::Scene,
+    frame::Quality,
+    probe::{ProbeAnswer, ProbeRequest, SunPlace},
+};
+use serde::Serialize;
+use std::{future::Future, pin::Pin, sync::Arc};
+
+/// The answer that a renderer will give. Dropping it cancels the work at the next tile.
+pub type Reply<T> = Pin<Box<dyn Future<Output = Result<T, RenderError>> + Send>>;
+
+/// Renders validated scenes.
+pub trait Render: Send + Sync {
+    /// One frame. The work is queued by the call itself, not at the first poll.
+    fn frame(&self, order: FrameOrder) -> Reply<Arc<Frame>>;
+    /// Radiance at exact directions.
+    fn probe(&self, request: ProbeRequest) -> Reply<ProbeAnswer>;
+    /// The device that renders.
+    fn device(&self) -> DeviceInfo;
+}
+
+/// One frame to render. The scene has been validated.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FrameOrder {
+    /// What is seen.
+    pub scene: Arc<Scene>,
+    /// Width, pixels, 1 to [`crate::frame::MAX_SIDE_PX`].
+    pub width_px: u32,
+    /// Height, pixels, 1 to [`crate::frame::MAX_SIDE_PX`].
+    pub height_px: u32,
+    /// How much work goes into it.
+    pub quality: Quality,
+    /// Picture or radiance.
+    pub output: Output,
+    /// Who waits for it.
+    pub priority: Priority,
+}
+
+/// What the pixels are.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Output {
+    /// The picture, 8-bit sRGB.
+    Display,
+    /// Radiance, W/m²/sr.
+    Linear,
+}
+
+/// Who waits. Interactive work goes before batch work.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Priority {
+    /// Nobody looks at the clock.
+    Batch,
+    /// A person waits.
+    Interactive,
+}
+
+/// A rendered frame, rows from the top.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Frame {
+    /// Width, pixels.
+    pub width_px: u32,
+    /// Height, pixels.
+    pub height_px: u32,
+    /// The pixels.
+    pub pixels: Pixels,
+    /// Time spent, one entry a pass that ran, in the order they ran. Empty where the frame was kept from before.
+    pub passes: Vec<PassTime>,
+    /// What the frame says of itself.
+    pub facts: FrameFacts,
+}
+
+/// Three values a pixel.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Pixels {
+    /// sRGB, R G B.
+    Display(Vec<u8>),
+    /// Radiance, R G B, W/m²/sr.
+    Linear(Vec<f32>),
+}
+
+/// Time that one pass took.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct PassTime {
+    /// The pass, as its shader is named.
+    pub pass: &'static str,
+    /// Milliseconds.
+    pub ms: f64,
+}
+
+/// What a frame says of itself.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct FrameFacts {
+    /// Where the sun stands at the scene's origin.
+    pub sun: SunPlace,
+    /// Irradiance from the sun at the observer on a plane that faces it, W/m²; zero where the ground hides it.
+    pub sun_irradiance_w_m2: [f64; 3],
+    /// Exposure value at ISO 100 that the picture was taken with; `None` for radiance.
+    pub ev100: Option<f64>,
+}
+
+/// The device that renders.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct DeviceInfo {
+    /// The adapter's name.
+    pub adapter: String,
+    /// `cpu`, `discrete-gpu`, `integrated-gpu`, `virtual-gpu` or `other`.
+    pub kind: String,
+    /// `vulkan`, `metal` or `dx12`.
+    pub backend: String,
+    /// Driver and its version.
+    pub driver: String,
+    /// Longest side of a frame, pixels.
+    pub max_side_px: u32,
+    /// Times the device was lost and opened anew since the start.
+    pub recoveries: u64,
+}
+
+/// Why there is no answer.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum RenderError {
+    /// The queue is full.
+    #[error("all places in the render queue are taken; try again in {retry_after_s} s")]
+    Busy {
+        /// When to come back, seconds.
+        retry_after_s: u32,
+    },
+    /// The size cannot be rendered.
+    #[error("a frame of {width_px} x {height_px} pixels: {reason}")]
+    Size {
+        /// Asked width, pixels.
+        width_px: u32,
+        /// Asked height, pixels.
+        height_px: u32,
+        /// What is allowed.
+        reason: String,
+    },
+    /// The device failed and was opened anew; the work was not done.
+    #[error("the device failed: {0}")]
+    Device(String),
+    /// The renderer is shutting down.
+    #[error("the renderer is shutting down")]
+    Stopped,
+}
