@@ -73,7 +73,10 @@ pub struct Rayleigh {
 
 impl Default for Rayleigh {
     fn default() -> Self {
-        Self { scattering_per_m: [5.802e-6, 13.558e-6, 33.1e-6], scale_height_m: 8_000.0 }
+        Self {
+            scattering_per_m: [5.802e-6, 13.558e-6, 33.1e-6],
+            scale_height_m: 8_000.0,
+        }
     }
 }
 
@@ -97,7 +100,12 @@ pub struct Mie {
 
 impl Default for Mie {
     fn default() -> Self {
-        Self { scattering_per_m: 3.996e-6, absorption_per_m: 0.444e-6, scale_height_m: 1_200.0, asymmetry: 0.8 }
+        Self {
+            scattering_per_m: 3.996e-6,
+            absorption_per_m: 0.444e-6,
+            scale_height_m: 1_200.0,
+            asymmetry: 0.8,
+        }
     }
 }
 
@@ -118,6 +126,10 @@ pub struct Ozone {
 
 impl Default for Ozone {
     fn default() -> Self {
-        Self { absorption_per_m: [0.650e-6, 1.881e-6, 0.085e-6], centre_m: 25_000.0, half_width_m: 15_000.0 }
+        Self {
+            absorption_per_m: [0.650e-6, 1.881e-6, 0.085e-6],
+            centre_m: 25_000.0,
+            half_width_m: 15_000.0,
+        }
     }
 }

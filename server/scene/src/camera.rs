@@ -26,7 +26,9 @@ impl Default for Camera {
             position_m: [0.0, 0.0, 2.0],
             direction: Direction::angles(180.0, 10.0),
             roll_deg: 0.0,
-            projection: Projection::Perspective { vertical_fov_deg: 60.0 },
+            projection: Projection::Perspective {
+                vertical_fov_deg: 60.0,
+            },
         }
     }
 }

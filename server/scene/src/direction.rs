@@ -29,14 +29,20 @@ impl Direction {
     /// From azimuth and elevation, degrees.
     #[must_use]
     pub const fn angles(azimuth_deg: f64, elevation_deg: f64) -> Self {
-        Self::Angles(Angles { azimuth_deg, elevation_deg })
+        Self::Angles(Angles {
+            azimuth_deg,
+            elevation_deg,
+        })
     }
 
     /// The unit vector (east, north, up). A zero vector, which validation refuses, gives zeros.
     #[must_use]
     pub fn unit(&self) -> [f64; 3] {
         match *self {
-            Self::Angles(Angles { azimuth_deg, elevation_deg }) => {
+            Self::Angles(Angles {
+                azimuth_deg,
+                elevation_deg,
+            }) => {
                 let (sin_az, cos_az) = azimuth_deg.to_radians().sin_cos();
                 let (sin_el, cos_el) = elevation_deg.to_radians().sin_cos();
                 [sin_az * cos_el, cos_az * cos_el, sin_el]

@@ -2,7 +2,7 @@
 
 use crate::document::Scene;
 use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use serde::{Deserialize, Deserializer, Serialize, de::Error};
 
 /// The longest side of a frame, pixels.
 pub const MAX_SIDE_PX: u32 = 16_384;
@@ -14,9 +14,11 @@ pub struct FrameRequest {
     /// What is seen.
     pub scene: Scene,
     /// Width, pixels.
+    #[serde(deserialize_with = "whole")]
     #[schemars(range(min = 1, max = 16_384))]
     pub width_px: u32,
     /// Height, pixels.
+    #[serde(deserialize_with = "whole")]
     #[schemars(range(min = 1, max = 16_384))]
     pub height_px: u32,
     /// Kind of file. Without it, the `Accept` header or the file's name decides, else PNG.
@@ -27,8 +29,30 @@ pub struct FrameRequest {
 
 impl Default for FrameRequest {
     fn default() -> Self {
-        Self { scene: Scene::default(), width_px: 1280, height_px: 720, format: None, quality: Quality::Final }
+        Self {
+            scene: Scene::default(),
+            width_px: 1280,
+            height_px: 720,
+            format: None,
+            quality: Quality::Final,
+        }
     }
+}
+
+/// Reads a whole number however JSON writes it: 1280, 1280.0 or 1.28e3 are one `integer` in JSON Schema.
+fn whole<'de, D: Deserializer<'de>>(deserializer: D) -> Result<u32, D::Error> {
+    let number = f64::deserialize(deserializer)?;
+    if number.fract() != 0.0 || !(0.0..=f64::from(u32::MAX)).contains(&number) {
+        return Err(D::Error::custom(format!(
+            "{number} is not a whole number of pixels"
+        )));
+    }
+    #[allow(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "whole and in range as checked above"
+    )]
+    Ok(number as u32)
 }
 
 /// Kind of file. Display formats hold the picture; linear formats hold radiance in W/m²/sr before exposure.

@@ -7,13 +7,22 @@
 
 pub mod atmosphere;
 pub mod camera;
+mod check;
 pub mod direction;
 pub mod display;
 pub mod document;
+mod explain;
 pub mod frame;
+pub mod observer;
+mod parse;
 pub mod planet;
+pub mod preset;
 pub mod probe;
+pub mod problem;
 pub mod renderer;
+pub mod schema;
+mod shape;
+mod solar;
 pub mod sun;
 
 pub use atmosphere::{Atmosphere, Method, Mie, Orders, Ozone, Rayleigh};
@@ -22,6 +31,10 @@ pub use direction::Direction;
 pub use display::{Display, Exposure, ToneCurve};
 pub use document::Scene;
 pub use frame::{Format, FrameRequest, Quality};
+pub use observer::Observer;
 pub use planet::Planet;
+pub use preset::{Preset, preset, presets};
 pub use probe::{Irradiance, ProbeAnswer, ProbeRequest, SunPlace};
+pub use problem::{Problem, SceneError};
+pub use schema::{frame_request_schema, probe_request_schema, scene_schema};
 pub use sun::{Sun, SunPosition};

@@ -17,6 +17,9 @@ pub struct Planet {
 
 impl Default for Planet {
     fn default() -> Self {
-        Self { radius_m: 6_360_000.0, ground_albedo: [0.1; 3] }
+        Self {
+            radius_m: 6_360_000.0,
+            ground_albedo: [0.1; 3],
+        }
     }
 }

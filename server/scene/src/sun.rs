@@ -49,6 +49,7 @@ pub enum SunPosition {
 #[serde(deny_unknown_fields)]
 pub struct TimeAndPlace {
     /// RFC 3339, for example `2026-06-21T05:00:00Z`; years 1900 to 2100.
+    #[schemars(extend("format" = "date-time"))]
     pub time: String,
     /// North is positive, degrees.
     #[schemars(range(min = -90.0, max = 90.0))]

@@ -1,0 +1,132 @@
+//! What no schema can say: fields that contradict one another, or physics.
+
+use crate::{
+    camera::{FisheyeMapping, Projection},
+    direction::Direction,
+    document::Scene,
+    frame::FrameRequest,
+    observer::Observer,
+    probe::ProbeRequest,
+    problem::{Problem, Problems},
+    solar::{YEARS, later, moment},
+    sun::SunPosition,
+};
+use serde_json::json;
+
+/// Highest camera, metres over the ground: a quarter of the way to the moon.
+const MAX_ALTITUDE_M: f64 = 1e8;
+/// A stereographic picture grows as tan(fov / 4), without end towards 360°.
+const MAX_STEREOGRAPHIC_FOV_DEG: f64 = 300.0;
+
+/// A document that is checked beyond its schema.
+pub(crate) trait Check {
+    /// Adds what is wrong; the document stands at the pointer `at`.
+    fn check(&self, at: &str, problems: &mut Problems);
+}
+
+impl Check for Scene {
+    fn check(&self, at: &str, problems: &mut Problems) {
+        let camera = format!("{at}/camera");
+        direction(&self.camera.direction, &format!("{camera}/direction"), problems);
+        altitude(self, &format!("{camera}/position_m"), problems);
+        if let Projection::Fisheye {
+            fov_deg,
+            mapping: FisheyeMapping::Stereographic,
+        } = self.camera.projection
+            && fov_deg > MAX_STEREOGRAPHIC_FOV_DEG
+        {
+            let allowed = format!(
+                "a number from 1 to {MAX_STEREOGRAPHIC_FOV_DEG} degrees where `mapping` is `stereographic`"
+            );
+            problems.push(Problem::new(
+                format!("{camera}/projection/fov_deg"),
+                &json!(fov_deg),
+                allowed,
+            ));
+        }
+        sun(self, at, problems);
+    }
+}
+
+impl Check for FrameRequest {
+    fn check(&self, at: &str, problems: &mut Problems) {
+        self.scene.check(&format!("{at}/scene"), problems);
+        let Self {
+            width_px, height_px, ..
+        } = *self;
+        if matches!(self.scene.camera.projection, Projection::Cubemap {}) && width_px != 6 * height_px {
+            let allowed = format!("6 times `height_px` ({height_px}), for six square faces");
+            problems.push(Problem::new(format!("{at}/width_px"), &json!(width_px), allowed));
+        }
+    }
+}
+
+impl Check for ProbeRequest {
+    fn check(&self, at: &str, problems: &mut Problems) {
+        self.scene.check(&format!("{at}/scene"), problems);
+        for (i, d) in self.directions.iter().enumerate() {
+            if problems.is_full() {
+                return;
+            }
+            direction(d, &format!("{at}/directions/{i}"), problems);
+        }
+    }
+}
+
+fn direction(direction: &Direction, at: &str, problems: &mut Problems) {
+    if let Direction::Vector(v) = direction
+        && *v == [0.0; 3]
+    {
+        problems.push(Problem::new(
+            at.into(),
+            &json!(v),
+            "a vector of any length but zero".into(),
+        ));
+    }
+}
+
+fn altitude(scene: &Scene, at: &str, problems: &mut Problems) {
+    let Observer { altitude_m, .. } = scene.observer();
+    if (0.0..=MAX_ALTITUDE_M).contains(&altitude_m) {
+        return;
+    }
+    let allowed = format!("on the ground or above it, up to {MAX_ALTITUDE_M:e} metres");
+    let mut problem = Problem::new(at.into(), &json!(scene.camera.position_m), allowed);
+    let side = if altitude_m < 0.0 { "below" } else { "above" };
+    problem
+        .message
+        .push_str(&format!(", {} metres {side} the ground", altitude_m.abs()));
+    problems.push(problem);
+}
+
+fn sun(scene: &Scene, at: &str, problems: &mut Problems) {
+    let position = format!("{at}/sun/position");
+    let place = match &scene.sun.position {
+        SunPosition::Direction(d) => return direction(d, &position, problems),
+        SunPosition::TimeAndPlace(place) => place,
+    };
+    let years = format!("from {} to {}", YEARS.start(), YEARS.end());
+    match moment(&place.time) {
+        None => {
+            let allowed =
+                format!("a date and time as in RFC 3339, like 2026-06-21T05:00:00Z, in the years {years}");
+            problems.push(Problem::new(
+                format!("{position}/time"),
+                &json!(place.time),
+                allowed,
+            ));
+        }
+        Some(moment) if later(moment, scene.time_s).is_none() => {
+            let allowed = format!(
+                "a number of seconds that leads from {} to a time in the years {years}",
+                place.time
+            );
+            problems.push(Problem::new(
+                format!("{at}/time_s"),
+                &json!(scene.time_s),
+                allowed,
+            ));
+        }
+        Some(_) => {}
+    }
+}
