@@ -7,7 +7,7 @@ use crate::{
     frame::FrameRequest,
     observer::Observer,
     probe::ProbeRequest,
-    problem::{Problem, Problems},
+    problem::{Problem, Problems, number},
     solar::{YEARS, later, moment},
     sun::SunPosition,
 };
@@ -93,9 +93,10 @@ fn altitude(scene: &Scene, at: &str, problems: &mut Problems) {
     let allowed = format!("on the ground or above it, up to {MAX_ALTITUDE_M:e} metres");
     let mut problem = Problem::new(at.into(), &json!(scene.camera.position_m), allowed);
     let side = if altitude_m < 0.0 { "below" } else { "above" };
-    problem
-        .message
-        .push_str(&format!(", {} metres {side} the ground", altitude_m.abs()));
+    problem.message.push_str(&format!(
+        ", which is {} m {side} the ground",
+        number(altitude_m.abs())
+    ));
     problems.push(problem);
 }
 

@@ -48,7 +48,11 @@ pub(crate) fn explain(root: &Value, schema: &Value, pointer: &str, held: &Value,
                 .flatten()
                 .filter_map(Value::as_str)
             {
-                if !held.contains_key(name) {
+                let is_misspelt = || {
+                    held.keys()
+                        .any(|k| known.get(k).is_none() && nearest(k, &members(schema)) == Some(name))
+                };
+                if !held.contains_key(name) && !is_misspelt() {
                     let allowed = describe(root, &known[name], &member(pointer, name));
                     problems.push(missing(pointer, name, allowed));
                 }

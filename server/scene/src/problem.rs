@@ -1,7 +1,7 @@
 //! What is wrong with a document, in words for the person who wrote it.
 
 use serde::Serialize;
-use serde_json::Value;
+use serde_json::{Serializer, Value, ser::Formatter};
 use std::{fmt, io};
 
 /// Most problems that one error reports.
@@ -15,7 +15,7 @@ const MAX_NAME_BYTES: usize = 64;
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum SceneError {
     /// The text is not JSON; `NaN`, `Infinity` and numbers beyond the range of 64-bit floats are not.
-    #[error("not JSON at line {line}, column {column} (field \"{pointer}\"): {reason}")]
+    #[error("not JSON at line {line}, column {column}{}: {reason}", within(.pointer))]
     Malformed {
         /// The innermost field that was being read, as a JSON pointer (RFC 6901).
         pointer: String,
@@ -82,13 +82,22 @@ impl Problems {
     }
 }
 
+fn within(pointer: &str) -> String {
+    if pointer.is_empty() {
+        String::new()
+    } else {
+        format!(", in {pointer}")
+    }
+}
+
 struct Listed<'a>(&'a [Problem]);
 
 impl fmt::Display for Listed<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         for (i, problem) in self.0.iter().enumerate() {
             let end = if i == 0 { "" } else { "\n" };
-            write!(f, "{end}{}: {}", problem.pointer, problem.message)?;
+            let colon = if problem.pointer.is_empty() { "" } else { ": " };
+            write!(f, "{end}{}{colon}{}", problem.pointer, problem.message)?;
         }
         Ok(())
     }
@@ -147,12 +156,32 @@ fn shortened(value: &Value) -> Value {
 /// JSON, cut to [`MAX_VALUE_CHARS`] with an ellipsis. The work is bounded as well, whatever the value's size.
 fn compact(value: &Value) -> String {
     let mut start = Start { bytes: Vec::new() };
-    let whole = serde_json::to_writer(&mut start, value).is_ok();
+    let whole = value
+        .serialize(&mut Serializer::with_formatter(&mut start, Plain))
+        .is_ok();
     let text = String::from_utf8_lossy(&start.bytes);
     if whole && text.chars().count() <= MAX_VALUE_CHARS {
         return text.into_owned();
     }
     text.chars().take(MAX_VALUE_CHARS - 1).chain(['…']).collect()
+}
+
+/// A number as people write it: no `.0` behind whole ones, powers of ten where there would be many zeros.
+pub(crate) fn number(n: f64) -> String {
+    if n != 0.0 && !(1e-3..1e6).contains(&n.abs()) {
+        format!("{n:e}")
+    } else {
+        n.to_string()
+    }
+}
+
+/// Compact JSON with [`number`]s.
+struct Plain;
+
+impl Formatter for Plain {
+    fn write_f64<W: ?Sized + io::Write>(&mut self, writer: &mut W, n: f64) -> io::Result<()> {
+        writer.write_all(number(n).as_bytes())
+    }
 }
 
 /// Keeps the beginning of what is written and refuses the rest.

@@ -75,11 +75,11 @@ const UNITS: [Unit; 8] = [
     },
 ];
 
-/// The field's name without its unit, and the unit. A name may be the unit itself (`ev`).
+/// The field's name without its unit, and the unit. A name may be the unit itself (`ev`); its stem is empty.
 pub(crate) fn split_unit(name: &str) -> (&str, Option<&'static Unit>) {
     for unit in &UNITS {
         if name == &unit.suffix[1..] {
-            return (name, Some(unit));
+            return ("", Some(unit));
         }
         if let Some(stem) = name.strip_suffix(unit.suffix) {
             return (stem, Some(unit));
@@ -106,7 +106,11 @@ fn name_fields(schema: &mut Schema) {
             continue;
         };
         let (stem, unit) = split_unit(name);
-        field.entry("title").or_insert_with(|| title(stem).into());
+        let title = match unit {
+            Some(unit) if stem.is_empty() => unit.symbol.into(),
+            _ => title(stem),
+        };
+        field.entry("title").or_insert(title.into());
         if let Some(unit) = unit {
             field.insert("x-unit".into(), unit.symbol.into());
         }

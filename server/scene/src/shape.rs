@@ -1,6 +1,9 @@
 //! Reading our own schemas: references, the branches of a union, types, and what a field may hold, in words.
 
-use crate::{problem::field_name, schema::split_unit};
+use crate::{
+    problem::{field_name, number},
+    schema::split_unit,
+};
 use serde_json::Value;
 
 /// The member that tells the shapes of a tagged type apart.
@@ -140,13 +143,5 @@ fn range(schema: &Value, pointer: &str) -> String {
         (Some(least), None) => format!(" of {}{unit} or more", number(least)),
         (None, Some(most)) => format!(" of {}{unit} or less", number(most)),
         (None, None) => unit,
-    }
-}
-
-fn number(n: f64) -> String {
-    if n != 0.0 && !(1e-3..1e6).contains(&n.abs()) {
-        format!("{n:e}")
-    } else {
-        n.to_string()
     }
 }

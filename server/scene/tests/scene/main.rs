@@ -1,0 +1,9 @@
+//! The scene document through its public interface.
+#![allow(clippy::unwrap_used, clippy::expect_used, reason = "tests fail by panicking")]
+
+mod documents;
+mod faults;
+mod geometry;
+mod properties;
+mod schemas;
+mod sun;
