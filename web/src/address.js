@@ -1,0 +1,28 @@
+/** The scene in the address bar: written when things come to rest, read at the start and on back and forward. */
+import { debounced } from './dom.js';
+import { fromHash, toHash } from './hash.js';
+
+const REST_MS = 400;
+
+/** @param {import('./store.js').Store} store @param {(message: string) => void} complain */
+export function bindAddress(store, complain) {
+  const read = () => {
+    try {
+      store.load(fromHash(location.hash), 'address');
+    } catch (error) {
+      store.load({}, 'address');
+      complain(`The address holds no scene: ${/** @type {Error} */ (error).message}. This is the default scene.`);
+    }
+  };
+  const write = () => {
+    const hash = toHash(store.short());
+    if (hash !== location.hash) history.pushState(null, '', hash || location.pathname + location.search);
+  };
+  const writeSoon = debounced(write, REST_MS);
+  read();
+  store.subscribe((_, cause) => {
+    if (cause !== 'address') writeSoon();
+  });
+  window.addEventListener('popstate', read);
+  return { link: () => new URL(toHash(store.short()) || '#', location.href).href };
+}

@@ -1,0 +1,76 @@
+/** A part of the scene: its fields under a heading that folds, with a switch where the part may be off. */
+import { h, uniqueId } from '../dom.js';
+import { initial } from '../document.js';
+import { child } from '../pointer.js';
+import { createField } from './field.js';
+import { resetButton } from './row.js';
+
+/** @typedef {import('../schema.js').Node} Node */
+/** @typedef {import('./row.js').Field} Field */
+
+/** Fields that a photographer looks for first. */
+const FIRST = ['position', 'position_m', 'direction', 'projection', 'exposure', 'tone_curve'];
+
+/** Fields of an object: the foremost, then the simple, then whole parts. @param {import('./row.js').Context} context @param {string} pointer @param {Node} node */
+export function createFields(context, pointer, node) {
+  const isPart = (/** @type {import('../schema.js').Property} */ { node: n }) => n.type === 'object' || n.type === 'list';
+  const rank = (/** @type {import('../schema.js').Property} */ p) => (FIRST.includes(p.key) ? FIRST.indexOf(p.key) : FIRST.length + Number(isPart(p)));
+  const properties = [...(node.properties ?? [])].sort((a, b) => rank(a) - rank(b));
+  const fields = properties.map(({ key, node: inner }) => ({ key, field: createField(context, child(pointer, key), inner) }));
+  return {
+    elements: fields.map(({ field }) => field.element),
+    /** @param {any} value */
+    update: (value) => fields.forEach(({ key, field }) => field.update(value[key])),
+  };
+}
+
+/**
+ * A heading with `body` under it.
+ * @param {import('./row.js').Context} context @param {string} pointer @param {Node} node @param {boolean} open
+ */
+export function createFold(context, pointer, node, open) {
+  const id = uniqueId('group');
+  const body = h('div', { class: 'group-body', id });
+  const toggle = h('button', { type: 'button', class: 'fold', 'aria-controls': id, title: node.description }, node.title);
+  const fold = (/** @type {boolean} */ shown) => {
+    toggle.setAttribute('aria-expanded', String(shown));
+    body.hidden = !shown;
+  };
+  toggle.addEventListener('click', () => fold(Boolean(body.hidden)));
+  fold(open);
+  const reset = resetButton(context, pointer, node);
+  const head = h('div', { class: 'group-head' }, toggle, reset.button);
+  return { element: h('section', { class: 'group', 'data-pointer': pointer }, head, body), head, body, fold, reset };
+}
+
+/** @param {import('./row.js').Context} context @param {string} pointer @param {Node} node @param {boolean} [open] @returns {Field} */
+export function groupField(context, pointer, node, open = false) {
+  const { element, head, body, fold, reset } = createFold(context, pointer, node, open);
+  const on = h('input', { type: 'checkbox', class: 'switch', 'aria-label': `${node.title} on` });
+  on.addEventListener('change', () => {
+    context.store.set(pointer, on.checked ? (initial(node) ?? initial({ ...node, initial: undefined })) : null);
+    fold(on.checked);
+  });
+  if (node.nullable) head.append(on);
+  /** @type {ReturnType<typeof createFields> | null} */
+  let fields = null;
+  return {
+    element,
+    update(value) {
+      reset.update(value);
+      const isOn = value !== null;
+      on.checked = isOn;
+      element.classList.toggle('off', !isOn);
+      if (!isOn) {
+        body.replaceChildren(h('p', { class: 'note' }, 'Off'));
+        fields = null;
+        return;
+      }
+      if (!fields) {
+        fields = createFields(context, pointer, node);
+        body.replaceChildren(...fields.elements);
+      }
+      fields.update(value);
+    },
+  };
+}

@@ -1,0 +1,62 @@
+/** The small print: state, time per pass, size, adapter, pictures a second while things move. */
+import { byId, h } from './dom.js';
+import { milliseconds } from './text.js';
+import { announce } from './toast.js';
+
+/** @typedef {'connecting' | 'preview' | 'final' | 'reconnecting'} State */
+
+/** @type {Record<State, string>} */
+const NAMES = { connecting: 'Connecting', preview: 'Refining', final: 'Final', reconnecting: 'Reconnecting' };
+const RATE_WINDOW_MS = 1000;
+/** A preview and its refinement are not yet movement. */
+const STILL = 3;
+
+export function createHud() {
+  const hud = byId('hud', HTMLDetailsElement);
+  const slot = (/** @type {string} */ name) => /** @type {HTMLElement} */ (hud.querySelector(`[data-hud="${name}"]`));
+  const [state, time, fps, size, adapter, passes] = ['state', 'time', 'fps', 'size', 'adapter', 'passes'].map(slot);
+  /** @type {number[]} */
+  let arrivals = [];
+  const showRate = () => {
+    const now = performance.now();
+    arrivals = arrivals.filter((t) => now - t < RATE_WINDOW_MS);
+    fps.textContent = arrivals.length > STILL ? `${arrivals.length} fps` : '';
+  };
+  setInterval(showRate, RATE_WINDOW_MS / 2);
+  return {
+    /** @param {State} next */
+    setState(next) {
+      const before = document.body.dataset.state;
+      if (before === next) return;
+      document.body.dataset.state = next;
+      state.textContent = NAMES[next];
+      if (next === 'reconnecting') announce('Connection lost. Reconnecting.');
+      else if (before === 'reconnecting') announce('Connected again.');
+    },
+    /** @param {import('./protocol.js').FrameMessage} frame */
+    frame({ width, height }) {
+      arrivals.push(performance.now());
+      showRate();
+      size.textContent = `${width} × ${height}`;
+    },
+    /** Passes that were kept from before are not among them. @param {{passes: {pass: string, ms: number}[], render_ms: number}} stats */
+    times({ passes: times, render_ms }) {
+      time.textContent = milliseconds(render_ms);
+      const longest = Math.max(...times.map(({ ms }) => ms), 1);
+      passes.replaceChildren(
+        ...times.flatMap(({ pass, ms }) => [
+          h('dt', {}, pass),
+          h('meter', { min: 0, max: longest, value: ms, 'aria-hidden': 'true' }),
+          h('dd', { 'data-pass': pass }, milliseconds(ms)),
+        ]),
+      );
+    },
+    /** @param {{adapter: string, driver: string, backend: string}} device */
+    device(device) {
+      adapter.textContent = device.adapter;
+      adapter.title = `${device.adapter} · ${device.driver} · ${device.backend}`;
+    },
+  };
+}
+
+/** @typedef {ReturnType<typeof createHud>} Hud */

@@ -1,0 +1,100 @@
+/** The frame loop: pictures and figures come in, changes of the scene go out, the page follows. */
+import { connectLive } from './live.js';
+import { getAt, setAt } from './pointer.js';
+import { decodeFrame, isFinal, parseFrame } from './protocol.js';
+import { createSync } from './sync.js';
+import { compass } from './text.js';
+
+/** From this status on the scene is not to blame. */
+const SERVER_FAULT = 500;
+
+/**
+ * @param {object} parts
+ * @param {import('./store.js').Store} parts.store
+ * @param {import('./stage.js').Stage} parts.stage
+ * @param {import('./sun.js').Sun} parts.sun
+ * @param {import('./hud.js').Hud} parts.hud
+ * @param {(pointer: string, message: string) => void} parts.refused Shows why the server refused a scene
+ */
+export function createSky({ store, stage, sun, hud, refused }) {
+  const canvas = /** @type {HTMLCanvasElement} */ (document.getElementById('sky'));
+  let changed = true;
+  /** @type {number | null} */
+  let exposure = null;
+  let newest = 0;
+  let shown = 0;
+
+  const onFrame = async (/** @type {ArrayBuffer} */ buffer) => {
+    const frame = parseFrame(buffer);
+    const order = ++newest;
+    sync.confirm(frame.seq);
+    const picture = await decodeFrame(frame);
+    if (order < shown) return picture.close();
+    shown = order;
+    stage.show(picture);
+    hud.frame(frame);
+    hud.setState(isFinal(frame) && frame.seq >= sync.seq ? 'final' : 'preview');
+    Object.assign(canvas.dataset, { frames: order, seq: frame.seq, pass: frame.pass });
+  };
+
+  /** The field that was refused goes back to what the server last drew, and the rest of the scene stays. */
+  const onError = (/** @type {number | null} */ seq, /** @type {any} */ problem) => {
+    const pointer = (problem.pointer ?? '').replace(/^\/scene/, '');
+    const isOurs = seq !== null && problem.status < SERVER_FAULT && sync.refuse(seq);
+    if (isOurs) {
+      const good = sync.accepted && getAt(sync.accepted, pointer);
+      if (!sync.accepted) store.load({}, 'refused');
+      else store.replace(good === undefined ? sync.accepted : setAt(store.scene, pointer, good), 'refused');
+    }
+    refused(pointer, (problem.detail ?? problem.title).replaceAll('`', ''));
+  };
+
+  const onText = (/** @type {any} */ { seq, stats, error }) => {
+    if (error) onError(seq, error);
+    if (!stats) return;
+    hud.times(stats);
+    sun.report(stats.sun);
+    exposure = stats.ev100;
+    changed = true;
+  };
+
+  const live = connectLive(new URL('v1/live', document.baseURI.replace(/^http/, 'ws')).href, {
+    opened() {
+      sync.forget();
+      hud.setState('preview');
+    },
+    lost: () => hud.setState('reconnecting'),
+    text: onText,
+    binary: onFrame,
+  });
+  const sync = createSync(live.send, () => store.scene);
+  store.subscribe(() => (changed = true));
+  window.addEventListener('resize', () => (changed = true));
+
+  const describe = () => {
+    const angles = sun.angles();
+    if (!angles) return;
+    const height = `${Math.abs(angles.elevation_deg).toFixed(0)} degrees ${angles.elevation_deg < 0 ? 'below' : 'above'} the horizon`;
+    canvas.setAttribute('aria-label', `The sky. Sun ${height} in the ${compass(angles.azimuth_deg)}, azimuth ${angles.azimuth_deg.toFixed(0)} degrees.`);
+  };
+
+  return {
+    exposure: () => exposure,
+    /** @param {{update: () => void}[]} followers What shows the scene */
+    run(followers) {
+      const tick = () => {
+        if (changed) {
+          changed = false;
+          stage.setProjection(store.scene.camera.projection.kind);
+          stage.resize();
+          sync.want({ ...stage.size(), format: 'jpeg', quality: 'final' });
+          for (const follower of followers) follower.update();
+          describe();
+        }
+        if (live.isOpen() && sync.flush()) hud.setState('preview');
+        requestAnimationFrame(tick);
+      };
+      tick();
+    },
+  };
+}

@@ -1,0 +1,22 @@
+/** Short messages over the picture; they also reach screen readers. */
+import { byId, h } from './dom.js';
+
+const SHOWN_MS = 6000;
+const MOST = 3;
+
+/** Says something to a screen reader alone. @param {string} message */
+export function announce(message) {
+  const region = byId('announcer', HTMLParagraphElement);
+  if (region.textContent !== message) region.textContent = message;
+}
+
+/** @param {string} message @param {{bad?: boolean}} [options] */
+export function toast(message, { bad = false } = {}) {
+  const list = byId('toasts', HTMLDivElement);
+  const close = h('button', { type: 'button', 'aria-label': 'Dismiss', class: 'quiet', onclick: () => element.remove() }, '×');
+  const element = h('div', { class: `toast glass ${bad ? 'bad' : ''}`, role: bad ? 'alert' : 'status' }, h('span', {}, message), close);
+  for (const same of list.children) if (same.firstChild?.textContent === message) same.remove();
+  while (list.children.length >= MOST) list.firstChild?.remove();
+  list.append(element);
+  setTimeout(() => element.remove(), bad ? 2 * SHOWN_MS : SHOWN_MS);
+}
