@@ -1,0 +1,97 @@
+//! What one viewer looks at.
+
+use super::message::{Message, OutputChange};
+use crate::error::Error;
+use serde::{Deserialize, Serialize};
+use serde_json::{Value, json};
+use std::sync::Arc;
+use welkin_scene::{Scene, frame::Quality};
+
+/// Kind of picture that a viewer gets.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub(crate) enum LiveFormat {
+    Jpeg,
+    Png,
+    Raw,
+}
+
+/// Size and kind of what a viewer gets.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct LiveOutput {
+    pub(crate) width_px: u16,
+    pub(crate) height_px: u16,
+    pub(crate) format: LiveFormat,
+    pub(crate) quality: Quality,
+}
+
+impl Default for LiveOutput {
+    fn default() -> Self {
+        Self {
+            width_px: 1280,
+            height_px: 720,
+            format: LiveFormat::Jpeg,
+            quality: Quality::Final,
+        }
+    }
+}
+
+/// The scene and output of the last message that was accepted.
+#[derive(Clone, Debug)]
+pub(crate) struct View {
+    pub(crate) seq: u32,
+    pub(crate) scene: Arc<Scene>,
+    pub(crate) output: LiveOutput,
+    /// As the client sent it, which is what its patches change.
+    document: Value,
+}
+
+impl Default for View {
+    fn default() -> Self {
+        Self {
+            seq: 0,
+            scene: Arc::default(),
+            output: LiveOutput::default(),
+            document: json!({}),
+        }
+    }
+}
+
+impl View {
+    /// The view after a message, or why there is none; this one stays as it is.
+    pub(crate) fn after(&self, message: Message) -> Result<Self, Error> {
+        let Message {
+            seq,
+            scene,
+            patch,
+            output,
+        } = message;
+        let mut next = Self { seq, ..self.clone() };
+        if scene.is_some() || patch.is_some() {
+            if let Some(document) = scene {
+                next.document = document;
+            }
+            if let Some(patch) = patch {
+                json_patch::merge(&mut next.document, &patch);
+            }
+            let scene = Scene::from_value(&next.document).map_err(|e| Error::from(e).within("/scene"))?;
+            next.scene = Arc::new(scene);
+        }
+        if let Some(OutputChange {
+            width_px,
+            height_px,
+            format,
+            quality,
+        }) = output
+        {
+            let old = next.output;
+            next.output = LiveOutput {
+                width_px: width_px.unwrap_or(old.width_px),
+                height_px: height_px.unwrap_or(old.height_px),
+                format: format.unwrap_or(old.format),
+                quality: quality.unwrap_or(old.quality),
+            };
+        }
+        Ok(next)
+    }
+}

@@ -1,0 +1,20 @@
+//! The service called as its clients call it, over a renderer that draws a gradient.
+#![allow(
+    clippy::unwrap_used,
+    clippy::expect_used,
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "tests fail by panicking; their numbers are small"
+)]
+
+mod client;
+mod discovery;
+mod fake;
+mod frames;
+mod hostile;
+mod limits;
+mod live;
+mod live_flow;
+mod openapi;
+mod shutdown;
+mod static_files;
