@@ -1,0 +1,96 @@
+//! Links every shader with its imports, validates it, and writes what the renderer needs to know of it: the text, the
+//! size of its workgroup and its bindings. So the Rust side restates nothing, and a broken shader breaks the build.
+
+use naga::{
+    AddressSpace, ImageClass, ImageDimension, StorageAccess, TypeInner,
+    valid::{Capabilities, ValidationFlags, Validator},
+};
+use std::{error::Error, fmt::Write as _, fs, path::Path};
+use wesl::{ManglerKind, Wesl};
+
+fn main() -> Result<(), Box<dyn Error>> {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../shaders");
+    println!("cargo:rerun-if-changed={}", folder.display());
+    let mut names: Vec<String> = fs::read_dir(&folder)?
+        .filter_map(|entry| entry.ok()?.file_name().into_string().ok())
+        .filter_map(|file| file.strip_suffix(".wgsl").map(str::to_owned))
+        .collect();
+    names.sort();
+    let mut linker = Wesl::new(&folder);
+    linker.set_mangler(ManglerKind::None).use_sourcemap(false);
+    let mut code = String::new();
+    for name in &names {
+        let path = format!("package::{name}").parse()?;
+        let text = linker
+            .compile(&path)
+            .map_err(|e| format!("{name}.wgsl: {e}"))?
+            .to_string();
+        writeln!(code, "{}", describe(name, &text)?)?;
+    }
+    fs::write(Path::new(&std::env::var("OUT_DIR")?).join("shaders.rs"), code)?;
+    Ok(())
+}
+
+/// One `pub(crate) static NAME: Shader`.
+fn describe(name: &str, text: &str) -> Result<String, Box<dyn Error>> {
+    let module =
+        naga::front::wgsl::parse_str(text).map_err(|e| format!("{name}: {}", e.emit_to_string(text)))?;
+    Validator::new(ValidationFlags::all(), Capabilities::default())
+        .validate(&module)
+        .map_err(|e| format!("{name}: {}", e.emit_to_string(text)))?;
+    let [entry] = module.entry_points.as_slice() else {
+        return Err(format!("{name}.wgsl must have one entry point").into());
+    };
+    if entry.name != name {
+        return Err(format!("{name}.wgsl: the entry point is named {}", entry.name).into());
+    }
+    let mut bindings = Vec::new();
+    for (_, variable) in module.global_variables.iter() {
+        if let Some(place) = &variable.binding {
+            let inner = &module.types[variable.ty].inner;
+            bindings.push((
+                place.binding,
+                binding(&variable.space, inner).ok_or("a binding of an unknown kind")?,
+            ));
+        }
+    }
+    bindings.sort_unstable();
+    if bindings
+        .iter()
+        .enumerate()
+        .any(|(i, (at, _))| u32::try_from(i) != Ok(*at))
+    {
+        return Err(format!("{name}.wgsl: bindings must run from 0 without gaps").into());
+    }
+    let kinds: Vec<&str> = bindings.iter().map(|(_, kind)| *kind).collect();
+    Ok(format!(
+        "pub(crate) static {}: Shader = Shader {{ name: {name:?}, wgsl: {text:?}, workgroup: {:?}, bindings: &[{}] }};",
+        name.to_uppercase(),
+        entry.workgroup_size,
+        kinds.join(", "),
+    ))
+}
+
+fn binding(space: &AddressSpace, inner: &TypeInner) -> Option<&'static str> {
+    Some(match (space, inner) {
+        (AddressSpace::Uniform, _) => "Kind::Uniform",
+        (AddressSpace::Storage { access }, _) if access.contains(StorageAccess::STORE) => "Kind::Write",
+        (AddressSpace::Storage { .. }, _) => "Kind::Read",
+        (_, TypeInner::Sampler { .. }) => "Kind::Sampler",
+        (
+            _,
+            TypeInner::Image {
+                dim: ImageDimension::D2,
+                arrayed,
+                class,
+            },
+        ) => match (class, arrayed) {
+            (ImageClass::Sampled { .. }, false) => "Kind::Table",
+            (ImageClass::Sampled { .. }, true) => "Kind::TableLayers",
+            (ImageClass::Storage { .. }, false) => "Kind::WriteTable",
+            (ImageClass::Storage { .. }, true) => "Kind::WriteTableLayers",
+            _ => return None,
+        },
+        _ => return None,
+    })
+}

@@ -1,0 +1,63 @@
+//! The camera as the shaders see it.
+
+use crate::uniforms::narrow;
+use encase::ShaderType;
+use glam::{DVec3, UVec2, Vec2, Vec3};
+use std::f64::consts::PI;
+use welkin_scene::{Camera, FisheyeMapping, Projection};
+
+/// `Camera` of `lib/camera.wgsl`.
+#[derive(Clone, Debug, ShaderType)]
+pub(crate) struct CameraUniform {
+    pub(crate) right: Vec3,
+    pub(crate) projection: u32,
+    pub(crate) up: Vec3,
+    pub(crate) half_field: f32,
+    pub(crate) forward: Vec3,
+    pub(crate) pixel_angle: f32,
+    pub(crate) size_px: Vec2,
+}
+
+impl CameraUniform {
+    pub(crate) fn new(camera: &Camera, size_px: UVec2) -> Self {
+        let forward = DVec3::from_array(camera.direction.unit());
+        // Straight up or down there is no horizon to be level with: the top of the picture then points north or south
+        // as it would when tilting there from the north.
+        let level = forward.cross(DVec3::Z);
+        let right = if level.length() > 1e-9 {
+            level.normalize()
+        } else {
+            DVec3::X
+        };
+        let up = right.cross(forward);
+        let (sin, cos) = camera.roll_deg.to_radians().sin_cos();
+        let (right, up) = (right * cos - up * sin, up * cos + right * sin);
+        let (width, height) = (f64::from(size_px.x), f64::from(size_px.y));
+        let (projection, half_field, pixel_angle) = match camera.projection {
+            Projection::Perspective { vertical_fov_deg } => {
+                let half = (vertical_fov_deg.to_radians() / 2.0).tan();
+                (0, half, 2.0 * half / height)
+            }
+            Projection::Fisheye { fov_deg, mapping } => {
+                let half = fov_deg.to_radians() / 2.0;
+                let code = match mapping {
+                    FisheyeMapping::Equidistant => 1,
+                    FisheyeMapping::Equisolid => 2,
+                    FisheyeMapping::Stereographic => 3,
+                };
+                (code, half, 2.0 * half / width.min(height))
+            }
+            Projection::Equirectangular {} => (4, 0.0, PI / height),
+            Projection::Cubemap {} => (5, 0.0, PI / 2.0 / height),
+        };
+        Self {
+            right: right.as_vec3(),
+            projection,
+            up: up.as_vec3(),
+            half_field: narrow(half_field),
+            forward: forward.as_vec3(),
+            pixel_angle: narrow(pixel_angle),
+            size_px: size_px.as_vec2(),
+        }
+    }
+}

@@ -1,0 +1,3 @@
+//! f64 twins of the functions in `shaders/lib`: the tests compare the two, and the facts of a frame come from here.
+
+pub(crate) mod air;

@@ -1,0 +1,267 @@
+//! The list of passes, and what one frame asks of them.
+
+use crate::{
+    camera::CameraUniform,
+    cpu::air::transmittance_to_space,
+    error::Error,
+    gpu::{AdapterChoice, Gpu},
+    kernel::Recorder,
+    passes::{
+        Table,
+        exposure::{EXPOSURE_BYTES, ExposurePass, meter_size},
+        multi_scattering::{MultiScattering, MultiScatteringPass},
+        probe::{Probe, ProbeInputs, Seen, Sight},
+        sky::{Sky, SkyInputs},
+        sky_view::SkyView,
+        tone::Tone,
+        transmittance::Transmittance,
+    },
+    screen::{PICTURE_BYTES, RADIANCE_BYTES, Screen},
+    uniforms::{AirUniform, Part, Standpoint, TileUniform, ToneUniform, ViewUniform},
+};
+use glam::UVec2;
+use std::sync::Arc;
+use welkin_scene::{
+    Atmosphere, Exposure, Quality, Scene, Sun,
+    renderer::{FrameFacts, FrameOrder, Output, PassTime},
+};
+
+/// The device with its passes. Fields drop in this order: what was made from the device goes before it.
+pub(crate) struct Engine {
+    transmittance: Transmittance,
+    multi_scattering: MultiScatteringPass,
+    sky_view: SkyView,
+    sky: Sky,
+    exposure: ExposurePass,
+    tone: Tone,
+    probe: Probe,
+    screen: Screen,
+    pub(crate) gpu: Gpu,
+}
+
+/// What the air and the observer give, before any pixel.
+pub(crate) struct Tables {
+    pub(crate) air: Part,
+    pub(crate) stand: Standpoint,
+    pub(crate) transmittance: Arc<Table>,
+    pub(crate) multi_scattering: Arc<MultiScattering>,
+}
+
+/// A frame whose tables are ready and whose exposure is metered.
+pub(crate) struct Prepared {
+    tables: Tables,
+    view: Part,
+    camera: CameraUniform,
+    camera_part: Part,
+    sky_view: Arc<Table>,
+    exposure: Arc<wgpu::Buffer>,
+}
+
+impl Engine {
+    pub(crate) fn open(choice: &AdapterChoice) -> Result<Self, Error> {
+        let gpu = Gpu::open(choice)?;
+        let passes = gpu.guarded(|| {
+            Ok((
+                Transmittance::new(&gpu),
+                MultiScatteringPass::new(&gpu),
+                SkyView::new(&gpu),
+                Sky::new(&gpu),
+                ExposurePass::new(&gpu),
+                Tone::new(&gpu),
+                Probe::new(&gpu),
+            ))
+        })?;
+        let (transmittance, multi_scattering, sky_view, sky, exposure, tone, probe) = passes;
+        Ok(Self {
+            transmittance,
+            multi_scattering,
+            sky_view,
+            sky,
+            exposure,
+            tone,
+            probe,
+            screen: Screen::default(),
+            gpu,
+        })
+    }
+
+    fn tables(
+        (transmittance, multi_scattering): (&mut Transmittance, &mut MultiScatteringPass),
+        recorder: &mut Recorder<'_>,
+        scene: &Scene,
+        quality: Quality,
+    ) -> Tables {
+        let air = AirUniform::new(&scene.planet, scene.atmosphere.as_ref());
+        let wanted = air.multiple > 0.0;
+        let air = Part::new(&air);
+        let transmittance = transmittance.run(recorder, &air);
+        let multi_scattering = multi_scattering.run(recorder, &air, &transmittance, quality, wanted);
+        Tables {
+            air,
+            stand: Standpoint::new(scene),
+            transmittance,
+            multi_scattering,
+        }
+    }
+
+    /// Tables and exposure of a frame: all that does not grow with its size.
+    pub(crate) fn prepare(&mut self, order: &FrameOrder) -> Result<(Prepared, Vec<PassTime>), Error> {
+        let scene = &*order.scene;
+        let gpu = &self.gpu;
+        gpu.guarded(|| {
+            let mut recorder = Recorder::new(gpu);
+            let passes = (&mut self.transmittance, &mut self.multi_scattering);
+            let tables = Self::tables(passes, &mut recorder, scene, order.quality);
+            let reads = (&*tables.transmittance, &tables.multi_scattering.moments);
+            let sky_view = self
+                .sky_view
+                .run(&mut recorder, &tables.air, &tables.stand, reads, order.quality);
+            let size_px = UVec2::new(order.width_px, order.height_px);
+            let exposure = match scene.display.exposure {
+                Exposure::Auto { compensation_ev } if order.output == Output::Display => {
+                    // The meter does not look into the sun.
+                    let hidden = Sun {
+                        disc: false,
+                        ..scene.sun.clone()
+                    };
+                    let view = Part::new(&ViewUniform::new(&hidden, &tables.stand));
+                    let small = meter_size(size_px);
+                    let camera = Part::new(&CameraUniform::new(&scene.camera, small));
+                    let inputs = sky_inputs(&tables, &view, &camera, &sky_view);
+                    let compensation = crate::uniforms::narrow(compensation_ev);
+                    self.exposure
+                        .run(&mut recorder, &self.sky, inputs, small, compensation)
+                }
+                _ => self.exposure.none(gpu),
+            };
+            let camera = CameraUniform::new(&scene.camera, size_px);
+            let view = Part::new(&ViewUniform::new(&scene.sun, &tables.stand));
+            let ((), times) = recorder.finish(&[], |_| ())?;
+            let camera_part = Part::new(&camera);
+            Ok((
+                Prepared {
+                    tables,
+                    view,
+                    camera,
+                    camera_part,
+                    sky_view,
+                    exposure,
+                },
+                times,
+            ))
+        })
+    }
+
+    /// One tile. `take` gets its bytes: four floats a pixel of radiance, or four bytes a pixel of the picture. Gives
+    /// what it gives, the picture's EV, and the times.
+    pub(crate) fn tile<T>(
+        &mut self,
+        order: &FrameOrder,
+        frame: &Prepared,
+        tile: TileUniform,
+        take: impl FnOnce(&[u8]) -> T,
+    ) -> Result<(T, Option<f64>, Vec<PassTime>), Error> {
+        let gpu = &self.gpu;
+        let pixels = u64::from(tile.size_px.x) * u64::from(tile.size_px.y);
+        let buffers = self.screen.fit(gpu, pixels);
+        gpu.guarded(|| {
+            let mut recorder = Recorder::new(gpu);
+            let inputs = sky_inputs(&frame.tables, &frame.view, &frame.camera_part, &frame.sky_view);
+            let made_from = inputs.fingerprint(&Part::new(&tile));
+            // Emptied until the commands have run.
+            if buffers.holds.take() != Some(made_from) {
+                self.sky.run(&mut recorder, inputs, tile, &buffers.radiance);
+            }
+            let (settings, known_ev) =
+                ToneUniform::new(&order.scene, &frame.camera, &frame.tables.stand, tile);
+            let (source, size) = match order.output {
+                Output::Linear => (&buffers.radiance, RADIANCE_BYTES * pixels),
+                Output::Display => {
+                    self.tone.run(
+                        &mut recorder,
+                        &settings,
+                        &frame.exposure,
+                        &buffers.radiance,
+                        &buffers.picture,
+                    );
+                    (&buffers.picture, PICTURE_BYTES * pixels)
+                }
+            };
+            recorder
+                .encoder
+                .copy_buffer_to_buffer(source, 0, &buffers.staging, 0, size);
+            recorder
+                .encoder
+                .copy_buffer_to_buffer(&frame.exposure, 0, &buffers.exposure, 0, EXPOSURE_BYTES);
+            let readable = [(&buffers.staging, size), (&buffers.exposure, EXPOSURE_BYTES)];
+            let ((taken, metered_ev), times) = recorder.finish(&readable, |bytes| {
+                let exposure: &[f32] = bytemuck::cast_slice(bytes[1]);
+                (take(bytes[0]), f64::from(exposure[1]))
+            })?;
+            buffers.holds = Some(made_from);
+            let ev = match order.output {
+                Output::Display if settings.metered == 1 => Some(metered_ev),
+                Output::Display => known_ev,
+                Output::Linear => None,
+            };
+            Ok((taken, ev, times))
+        })
+    }
+
+    /// Answers at exact directions, at final quality.
+    pub(crate) fn probe(&mut self, scene: &Scene, sights: &[Sight]) -> Result<Vec<Seen>, Error> {
+        let gpu = &self.gpu;
+        gpu.guarded(|| {
+            let mut recorder = Recorder::new(gpu);
+            let passes = (&mut self.transmittance, &mut self.multi_scattering);
+            let tables = Self::tables(passes, &mut recorder, scene, Quality::Final);
+            recorder.finish(&[], |_| ())?;
+            let view = Part::new(&ViewUniform::new(&scene.sun, &tables.stand));
+            let inputs = ProbeInputs {
+                air: &tables.air,
+                view: &view,
+                stand: &tables.stand,
+                transmittance: &tables.transmittance,
+                multi_scattering: &tables.multi_scattering,
+            };
+            self.probe.run(gpu, inputs, sights)
+        })
+    }
+}
+
+fn sky_inputs<'a>(
+    tables: &'a Tables,
+    view: &'a Part,
+    camera: &'a Part,
+    sky_view: &'a Table,
+) -> SkyInputs<'a> {
+    SkyInputs {
+        air: &tables.air,
+        view,
+        camera,
+        transmittance: &tables.transmittance,
+        irradiance: &tables.multi_scattering.irradiance,
+        sky_view,
+    }
+}
+
+/// What a frame says of itself.
+pub(crate) fn facts(scene: &Scene, ev100: Option<f64>) -> FrameFacts {
+    let irradiance = direct_normal(scene, &Standpoint::new(scene));
+    FrameFacts {
+        sun: scene.sun_place(),
+        sun_irradiance_w_m2: irradiance,
+        ev100,
+    }
+}
+
+/// Irradiance from the sun at the observer on a plane that faces it.
+pub(crate) fn direct_normal(scene: &Scene, stand: &Standpoint) -> [f64; 3] {
+    let vacuum = Atmosphere {
+        density_factor: 0.0,
+        ..Atmosphere::default()
+    };
+    let air = scene.atmosphere.as_ref().unwrap_or(&vacuum);
+    let left = transmittance_to_space(&scene.planet, air, stand.altitude_m, stand.up.dot(stand.sun));
+    [0, 1, 2].map(|i| scene.sun.irradiance_w_m2[i] * left[i])
+}

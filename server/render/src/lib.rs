@@ -1,0 +1,26 @@
+//! The renderer: the only crate that speaks wgpu.
+//!
+//! A frame is a pure function of a scene. The renderer is a short list of passes ([`engine`]); each keeps its output
+//! until what it was made from changes. One thread owns the device ([`renderer`]).
+
+mod camera;
+mod colour;
+mod cpu;
+mod engine;
+mod error;
+mod frame_job;
+mod gpu;
+mod kept_frames;
+mod kernel;
+mod memo;
+mod passes;
+mod probe_job;
+mod quadrature;
+mod renderer;
+mod screen;
+mod shader;
+mod uniforms;
+
+pub use error::Error;
+pub use gpu::{AdapterChoice, adapters};
+pub use renderer::{Renderer, RendererSettings};

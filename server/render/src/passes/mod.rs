@@ -1,0 +1,18 @@
+//! The passes. Each keeps its outputs until what they were made from changes: the bytes of the uniforms it binds, and
+//! the outputs it reads.
+
+pub(crate) mod exposure;
+pub(crate) mod multi_scattering;
+pub(crate) mod probe;
+pub(crate) mod sky;
+pub(crate) mod sky_view;
+pub(crate) mod tone;
+pub(crate) mod transmittance;
+
+use crate::memo::Fingerprint;
+
+/// A texture that a pass wrote, with the fingerprint of what it was made from.
+pub(crate) struct Table {
+    pub(crate) view: wgpu::TextureView,
+    pub(crate) made_from: Fingerprint,
+}

@@ -1,0 +1,133 @@
+//! Radiance, transmittance and distance at exact directions.
+
+use super::{Table, multi_scattering::MultiScattering};
+use crate::{
+    error::Error,
+    gpu::Gpu,
+    kernel::{Bind, Kernel, Recorder},
+    shader,
+    uniforms::{Part, Standpoint},
+};
+use glam::DVec3;
+
+/// Steps along each ray.
+const STEPS: u32 = 256;
+
+/// Directions in one dispatch: about as much work as one tile of a frame.
+const CHUNK: usize = 8192;
+
+pub(crate) struct Probe {
+    kernel: Kernel,
+}
+
+/// A direction to probe.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Sight {
+    pub(crate) direction: DVec3,
+    pub(crate) disc: bool,
+}
+
+/// What is seen there.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Seen {
+    pub(crate) radiance: [f64; 3],
+    pub(crate) transmittance: [f64; 3],
+    pub(crate) distance_m: Option<f64>,
+}
+
+/// What the pass reads.
+#[derive(Clone, Copy)]
+pub(crate) struct ProbeInputs<'a> {
+    pub(crate) air: &'a Part,
+    pub(crate) view: &'a Part,
+    pub(crate) stand: &'a Standpoint,
+    pub(crate) transmittance: &'a Table,
+    pub(crate) multi_scattering: &'a MultiScattering,
+}
+
+impl Probe {
+    pub(crate) fn new(gpu: &Gpu) -> Self {
+        Self {
+            kernel: Kernel::new(gpu, &shader::PROBE),
+        }
+    }
+
+    /// One answer a direction. Waits for the device.
+    pub(crate) fn run(
+        &self,
+        gpu: &Gpu,
+        inputs: ProbeInputs<'_>,
+        sights: &[Sight],
+    ) -> Result<Vec<Seen>, Error> {
+        let mut seen = Vec::with_capacity(sights.len());
+        for chunk in sights.chunks(CHUNK) {
+            seen.extend(self.chunk(gpu, inputs, chunk)?);
+        }
+        Ok(seen)
+    }
+
+    fn chunk(&self, gpu: &Gpu, inputs: ProbeInputs<'_>, sights: &[Sight]) -> Result<Vec<Seen>, Error> {
+        let packed: Vec<[f32; 4]> = sights
+            .iter()
+            .map(|s| {
+                s.direction
+                    .as_vec3()
+                    .extend(if s.disc { 1.0 } else { 0.0 })
+                    .to_array()
+            })
+            .collect();
+        let count = packed.len() as u64;
+        let directions = gpu.filled(
+            "directions",
+            bytemuck::cast_slice(&packed),
+            wgpu::BufferUsages::STORAGE,
+        );
+        // Radiance and distance, transmittance and padding.
+        let size = 32 * count;
+        let answers = gpu.buffer(
+            "answers",
+            size,
+            wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_SRC,
+        );
+        let readable = gpu.buffer(
+            "answers",
+            size,
+            wgpu::BufferUsages::COPY_DST | wgpu::BufferUsages::MAP_READ,
+        );
+        let air = inputs.air.upload(gpu, "air");
+        let view = inputs.view.upload(gpu, "view");
+        let observer = Part::new(&inputs.stand.observer(STEPS)).upload(gpu, "observer");
+        let binds = [
+            Bind::Buffer(&air),
+            Bind::Buffer(&view),
+            Bind::Buffer(&observer),
+            Bind::Table(&inputs.transmittance.view),
+            Bind::LinearClamp,
+            Bind::Table(&inputs.multi_scattering.irradiance.view),
+            Bind::Table(&inputs.multi_scattering.moments.view),
+            Bind::Buffer(&directions),
+            Bind::Buffer(&answers),
+        ];
+        let mut recorder = Recorder::new(gpu);
+        let threads = u32::try_from(packed.len()).unwrap_or(u32::MAX);
+        recorder.dispatch(&self.kernel, &binds, [threads, 1, 1]);
+        recorder
+            .encoder
+            .copy_buffer_to_buffer(&answers, 0, &readable, 0, size);
+        let (seen, _) = recorder.finish(&[(&readable, size)], |bytes| {
+            let rows: Vec<[f32; 8]> = bytemuck::pod_collect_to_vec(bytes[0]);
+            rows.iter().map(answer).collect()
+        })?;
+        Ok(seen)
+    }
+}
+
+fn answer(row: &[f32; 8]) -> Seen {
+    let triple = |at: usize| [f64::from(row[at]), f64::from(row[at + 1]), f64::from(row[at + 2])];
+    let distance_m = (row[3] >= 0.0).then(|| f64::from(row[3]));
+    Seen {
+        radiance: triple(0),
+        transmittance: triple(4),
+        distance_m,
+    }
+}

@@ -1,0 +1,24 @@
+//! Pipelines from the linked WGSL. The layouts come from the shaders themselves.
+
+/// A linked and validated shader.
+pub(crate) struct Shader {
+    pub(crate) name: &'static str,
+    pub(crate) wgsl: &'static str,
+    pub(crate) workgroup: [u32; 3],
+    pub(crate) bindings: &'static [Kind],
+}
+
+/// What stands at a binding.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Kind {
+    Uniform,
+    Read,
+    Write,
+    Sampler,
+    Table,
+    TableLayers,
+    WriteTable,
+    WriteTableLayers,
+}
+
+include!(concat!(env!("OUT_DIR"), "/shaders.rs"));

@@ -1,0 +1,260 @@
+//! From the scene, in user units, to the structures that the shaders read. All conversion stands here.
+
+use crate::{camera::CameraUniform, colour};
+use encase::{ShaderSize, ShaderType, internal::WriteInto};
+use glam::{DVec3, UVec2, Vec2, Vec3};
+use welkin_scene::{Atmosphere, Exposure, Orders, Planet, Scene, Sun, ToneCurve};
+
+/// The bytes of one uniform: what a pass binds, and what its fingerprint is made of.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub(crate) struct Part(pub(crate) Vec<u8>);
+
+impl Part {
+    pub(crate) fn new(value: &(impl ShaderType + ShaderSize + WriteInto)) -> Self {
+        let mut bytes = vec![0; usize::try_from(value.size().get()).unwrap_or(0)];
+        let mut writer = encase::UniformBuffer::new(&mut bytes);
+        // The buffer has the value's own size.
+        let written = writer.write(value);
+        debug_assert!(written.is_ok(), "a uniform fits the buffer made for it");
+        Self(bytes)
+    }
+
+    pub(crate) fn upload(&self, gpu: &crate::gpu::Gpu, label: &str) -> wgpu::Buffer {
+        gpu.filled(label, &self.0, wgpu::BufferUsages::UNIFORM)
+    }
+}
+
+/// f64 to the f32 that shaders take.
+#[allow(
+    clippy::cast_possible_truncation,
+    reason = "shaders take f32; every scene value is far inside its range"
+)]
+pub(crate) const fn narrow(value: f64) -> f32 {
+    value as f32
+}
+
+pub(crate) fn narrow3(v: [f64; 3]) -> Vec3 {
+    Vec3::new(narrow(v[0]), narrow(v[1]), narrow(v[2]))
+}
+
+/// `Air` of `lib/air.wgsl`.
+#[derive(Clone, Debug, ShaderType)]
+pub(crate) struct AirUniform {
+    pub(crate) rayleigh_scattering_per_m: Vec3,
+    pub(crate) rayleigh_inverse_height_per_m: f32,
+    pub(crate) ozone_absorption_per_m: Vec3,
+    pub(crate) ozone_centre_m: f32,
+    pub(crate) ground_albedo: Vec3,
+    pub(crate) ozone_inverse_half_width_per_m: f32,
+    pub(crate) mie_scattering_per_m: f32,
+    pub(crate) mie_extinction_per_m: f32,
+    pub(crate) mie_inverse_height_per_m: f32,
+    pub(crate) mie_asymmetry: f32,
+    pub(crate) radius_m: f32,
+    pub(crate) top_m: f32,
+    pub(crate) mie_moments: Vec2,
+    pub(crate) multiple: f32,
+}
+
+impl AirUniform {
+    pub(crate) fn new(planet: &Planet, atmosphere: Option<&Atmosphere>) -> Self {
+        // Vacuum is air of no density.
+        let vacuum = Atmosphere {
+            density_factor: 0.0,
+            ..Atmosphere::default()
+        };
+        let air = atmosphere.unwrap_or(&vacuum);
+        let rayleigh = air.rayleigh.clone().unwrap_or_default();
+        let mie = air.mie.clone().unwrap_or_default();
+        let ozone = air.ozone.clone().unwrap_or_default();
+        let share = |present: bool| if present { air.density_factor } else { 0.0 };
+        let (with_rayleigh, with_mie) = (share(air.rayleigh.is_some()), share(air.mie.is_some()));
+        let with_ozone = share(air.ozone.is_some());
+        Self {
+            rayleigh_scattering_per_m: narrow3(rayleigh.scattering_per_m.map(|s| s * with_rayleigh)),
+            rayleigh_inverse_height_per_m: narrow(1.0 / rayleigh.scale_height_m),
+            ozone_absorption_per_m: narrow3(ozone.absorption_per_m.map(|s| s * with_ozone)),
+            ozone_centre_m: narrow(ozone.centre_m),
+            ground_albedo: narrow3(planet.ground_albedo),
+            ozone_inverse_half_width_per_m: narrow(1.0 / ozone.half_width_m),
+            mie_scattering_per_m: narrow(mie.scattering_per_m * with_mie),
+            mie_extinction_per_m: narrow((mie.scattering_per_m + mie.absorption_per_m) * with_mie),
+            mie_inverse_height_per_m: narrow(1.0 / mie.scale_height_m),
+            mie_asymmetry: narrow(mie.asymmetry),
+            radius_m: narrow(planet.radius_m),
+            top_m: narrow(air.top_m),
+            mie_moments: cornette_shanks_moments(mie.asymmetry),
+            multiple: if air.orders == Orders::Multiple && air.density_factor > 0.0 {
+                1.0
+            } else {
+                0.0
+            },
+        }
+    }
+}
+
+/// Mean P_1 and P_2 of the Cornette-Shanks phase function k (1+cos²θ) HG, from those of Henyey-Greenstein, g^l, with
+/// 1+cos²θ = 4/3 + 2/3 P_2 and the products P_1 P_2 = (3 P_3 + 2 P_1)/5, P_2² = 18/35 P_4 + 2/7 P_2 + 1/5.
+fn cornette_shanks_moments(g: f64) -> Vec2 {
+    let k = 1.5 / (2.0 + g * g);
+    let p1 = k * (8.0 / 5.0 * g + 2.0 / 5.0 * g.powi(3));
+    let p2 = k * (4.0 / 3.0 * g * g + 2.0 / 3.0 * (18.0 / 35.0 * g.powi(4) + 2.0 / 7.0 * g * g + 1.0 / 5.0));
+    Vec2::new(narrow(p1), narrow(p2))
+}
+
+/// `Observer` of `lib/view_ray.wgsl`.
+#[derive(Clone, Debug, ShaderType)]
+pub(crate) struct ObserverUniform {
+    pub(crate) altitude_m: f32,
+    pub(crate) mu_s: f32,
+    pub(crate) sin_s: f32,
+    pub(crate) steps: u32,
+}
+
+/// Cosine and sine of the angle between the sun and the observer's zenith, and the altitude.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Standpoint {
+    pub(crate) altitude_m: f64,
+    pub(crate) up: DVec3,
+    pub(crate) sun: DVec3,
+}
+
+impl Standpoint {
+    pub(crate) fn new(scene: &Scene) -> Self {
+        let observer = scene.observer();
+        Self {
+            altitude_m: observer.altitude_m.max(0.0),
+            up: DVec3::from_array(observer.up),
+            sun: DVec3::from_array(scene.sun_direction()),
+        }
+    }
+
+    pub(crate) fn observer(&self, steps: u32) -> ObserverUniform {
+        ObserverUniform {
+            altitude_m: narrow(self.altitude_m),
+            mu_s: narrow(self.up.dot(self.sun)),
+            sin_s: narrow(self.up.cross(self.sun).length()),
+            steps,
+        }
+    }
+}
+
+/// `View` of `lib/light.wgsl`.
+#[derive(Clone, Debug, ShaderType)]
+pub(crate) struct ViewUniform {
+    pub(crate) up: Vec3,
+    pub(crate) altitude_m: f32,
+    pub(crate) sun: Vec3,
+    pub(crate) mu_s: f32,
+    pub(crate) sun_irradiance: Vec3,
+    pub(crate) sun_angular_radius: f32,
+    pub(crate) limb_exponent: Vec3,
+    pub(crate) disc: f32,
+}
+
+/// Neckel and Labs 1994 as powers of the limb's cosine (Hestroffer and Magnan 1998) at 680, 550 and 440 nm.
+const LIMB_EXPONENT: Vec3 = Vec3::new(0.397, 0.503, 0.652);
+
+impl ViewUniform {
+    pub(crate) fn new(sun: &Sun, stand: &Standpoint) -> Self {
+        Self {
+            up: stand.up.as_vec3(),
+            altitude_m: narrow(stand.altitude_m),
+            sun: stand.sun.as_vec3(),
+            mu_s: narrow(stand.up.dot(stand.sun)),
+            sun_irradiance: narrow3(sun.irradiance_w_m2),
+            sun_angular_radius: narrow((sun.angular_diameter_deg / 2.0).to_radians()),
+            limb_exponent: if sun.limb_darkening {
+                LIMB_EXPONENT
+            } else {
+                Vec3::ZERO
+            },
+            disc: if sun.disc { 1.0 } else { 0.0 },
+        }
+    }
+}
+
+/// `Tile` of `sky.wgsl`.
+#[derive(Clone, Copy, Debug, ShaderType)]
+pub(crate) struct TileUniform {
+    pub(crate) origin_px: UVec2,
+    pub(crate) size_px: UVec2,
+}
+
+/// `Order` of `multi_scattering.wgsl`.
+#[derive(Clone, Copy, Debug, ShaderType)]
+pub(crate) struct OrderUniform {
+    pub(crate) index: u32,
+    pub(crate) last: u32,
+    pub(crate) steps: u32,
+}
+
+/// `Meter` of `exposure.wgsl`.
+#[derive(Clone, Copy, Debug, ShaderType)]
+pub(crate) struct MeterUniform {
+    pub(crate) size_px: UVec2,
+    pub(crate) compensation_ev: f32,
+}
+
+/// `Tone` of `tone.wgsl`.
+#[derive(Clone, Debug, ShaderType)]
+pub(crate) struct ToneUniform {
+    pub(crate) white_r: Vec3,
+    pub(crate) curve: u32,
+    pub(crate) white_g: Vec3,
+    pub(crate) metered: u32,
+    pub(crate) white_b: Vec3,
+    pub(crate) dither: u32,
+    pub(crate) gain: Vec3,
+    pub(crate) pad: f32,
+    pub(crate) origin_px: UVec2,
+    pub(crate) size_px: UVec2,
+}
+
+/// EV at ISO 100 at which one W/m²/sr in the green band becomes 1: full scale is at 1.2 · 2^EV cd/m² (ISO 12232).
+fn ev_of_gain(gain: f64) -> f64 {
+    (colour::LUMINANCE_PER_RADIANCE[1] / (1.2 * gain)).log2()
+}
+
+impl ToneUniform {
+    /// The settings, and the exposure value where it is known before metering.
+    pub(crate) fn new(
+        scene: &Scene,
+        camera: &CameraUniform,
+        stand: &Standpoint,
+        tile: TileUniform,
+    ) -> (Self, Option<f64>) {
+        let display = &scene.display;
+        let (gain, ev) = match display.exposure {
+            Exposure::Ev { ev } => {
+                let scale = (-ev).exp2() / 1.2;
+                (colour::LUMINANCE_PER_RADIANCE.map(|k| k * scale), Some(ev))
+            }
+            Exposure::Auto { .. } => ([0.0; 3], None),
+            Exposure::Pupil { gain } => {
+                let towards = f64::from(camera.forward.dot(stand.sun.as_vec3()));
+                let opened = gain * (1.0 - towards / 4.0).clamp(0.0, 1.0);
+                ([opened; 3], (opened > 0.0).then(|| ev_of_gain(opened)))
+            }
+        };
+        let white = colour::white_balance(display.white_balance_k);
+        let tone = Self {
+            white_r: narrow3(white[0]),
+            curve: match display.tone_curve {
+                ToneCurve::Reinhard => 0,
+                ToneCurve::Exponential => 1,
+                ToneCurve::Aces => 2,
+                ToneCurve::Agx => 3,
+            },
+            white_g: narrow3(white[1]),
+            metered: u32::from(matches!(display.exposure, Exposure::Auto { .. })),
+            white_b: narrow3(white[2]),
+            dither: u32::from(display.dither),
+            gain: narrow3(gain),
+            pad: 0.0,
+            origin_px: tile.origin_px,
+            size_px: tile.size_px,
+        };
+        (tone, ev)
+    }
+}

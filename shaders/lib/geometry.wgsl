@@ -1,0 +1,96 @@
+// Conventions of every shader
+//   World axes: x east, y north, z up at the scene's origin. Metres. Radiance in W/m²/sr for a sun of unit
+//   irradiance until the last pass multiplies by the sun's irradiance.
+//   A point in the air is given by its altitude h above the sphere of radius R and by cosines: mu of the view
+//   direction with the zenith at that point, mu_s of the sun with the same zenith, nu of view and sun. A ray is
+//   followed by its length t from where it starts.
+//   f32 resolves 0.5 m at the planet's radius, so no radius is ever subtracted from another: altitudes are carried,
+//   and (R+h)² - R² is written h(2R+h).
+
+const PI = 3.14159265358979;
+
+// h(2R+h) = (R+h)² - R², the square of the distance from altitude h to the horizon.
+fn horizon_distance_squared(radius_m: f32, altitude_m: f32) -> f32 {
+    return altitude_m * (2.0 * radius_m + altitude_m);
+}
+
+// Altitude after a length t. From |p|² - R² = t² + 2 r mu t + h(2R+h) =: c and h' = c / (√(R²+c) + R).
+fn altitude_after(radius_m: f32, altitude_m: f32, mu: f32, t: f32) -> f32 {
+    let c = t * (t + 2.0 * (radius_m + altitude_m) * mu) + horizon_distance_squared(radius_m, altitude_m);
+    return c / (sqrt(max(radius_m * radius_m + c, 0.0)) + radius_m);
+}
+
+// Cosine with the local zenith after a length t of a direction that has cosine `mu_d` with the zenith at the start
+// and cosine `along` with the ray: p·d / |p|.
+fn cosine_after(radius_m: f32, altitude_m: f32, altitude_after_m: f32, mu_d: f32, along: f32, t: f32) -> f32 {
+    return clamp(((radius_m + altitude_m) * mu_d + t * along) / (radius_m + altitude_after_m), -1.0, 1.0);
+}
+
+// Length to the sphere of radius R from altitude h ≥ 0 above it, or -1. The smaller root of t² + 2 r mu t + h(2R+h)
+// as c / (-b + √(b²-c)), which cancels nothing.
+fn distance_to_sphere(radius_m: f32, altitude_m: f32, mu: f32) -> f32 {
+    let b = (radius_m + altitude_m) * mu;
+    let c = horizon_distance_squared(radius_m, altitude_m);
+    let discriminant = b * b - c;
+    if mu >= 0.0 || discriminant < 0.0 {
+        return -1.0;
+    }
+    return c / (sqrt(discriminant) - b);
+}
+
+// Length from inside the sphere of altitude `top_m` to it.
+fn distance_to_top(radius_m: f32, top_m: f32, altitude_m: f32, mu: f32) -> f32 {
+    let b = (radius_m + altitude_m) * mu;
+    let c = max((top_m - altitude_m) * (top_m + altitude_m + 2.0 * radius_m), 0.0);
+    let root = sqrt(b * b + c);
+    if b > 0.0 {
+        return c / (b + root);
+    }
+    return root - b;
+}
+
+// Angle from the zenith at which the sphere's edge is seen from altitude h above it: π/2 + atan(√(h(2R+h)) / R).
+fn edge_zenith_angle(radius_m: f32, altitude_m: f32) -> f32 {
+    return 0.5 * PI + atan(sqrt(horizon_distance_squared(radius_m, altitude_m)) / radius_m);
+}
+
+// The stretch of a ray that lies in the planet's shadow, empty where x ≥ y. Parallel light: the shadow is the half
+// of the cylinder of radius R about the sun's axis that lies behind the planet. Points of the ray have
+// |p|² - R² - (p·s)² = a t² + 2 b t + c with a = 1 - nu², b = r (mu - mu_s nu), c = h(2R+h) - (r mu_s)².
+fn shadow_stretch(radius_m: f32, altitude_m: f32, mu: f32, mu_s: f32, nu: f32, t_max: f32) -> vec2f {
+    let r = radius_m + altitude_m;
+    let behind = r * mu_s; // p·s = behind + t nu
+    let a = max(1.0 - nu * nu, 0.0);
+    let b = r * (mu - mu_s * nu);
+    let rho = sqrt(horizon_distance_squared(radius_m, altitude_m));
+    let c = (rho - abs(behind)) * (rho + abs(behind));
+    var stretch = vec2f(0.0, t_max);
+    if a < 1e-9 {
+        if c >= 0.0 {
+            return vec2f(0.0);
+        }
+    } else {
+        let discriminant = b * b - a * c;
+        if discriminant <= 0.0 {
+            return vec2f(0.0);
+        }
+        let q = -(b + select(-1.0, 1.0, b >= 0.0) * sqrt(discriminant));
+        var roots = vec2f(q / a, q / a);
+        if q != 0.0 {
+            roots.y = c / q;
+        }
+        stretch = vec2f(max(min(roots.x, roots.y), 0.0), min(max(roots.x, roots.y), t_max));
+    }
+    // Only where p·s < 0.
+    if abs(nu) > 1e-9 {
+        let t_terminator = -behind / nu;
+        if nu > 0.0 {
+            stretch.y = min(stretch.y, t_terminator);
+        } else {
+            stretch.x = max(stretch.x, t_terminator);
+        }
+    } else if behind >= 0.0 {
+        return vec2f(0.0);
+    }
+    return stretch;
+}

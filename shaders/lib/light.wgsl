@@ -1,0 +1,65 @@
+// What the observer sees in one direction, given the light in the air on the way.
+import package::lib::air::Air;
+import package::lib::geometry::{PI, cosine_after};
+import package::lib::phase::{rayleigh_phase, cornette_shanks_phase};
+import package::lib::scattering::Scattered;
+import package::lib::tables::{sun_cosine_unit, unit_to_coordinate};
+import package::lib::transmittance::transmittance_to_space;
+
+struct View {
+    // The observer's zenith.
+    up: vec3f,
+    altitude_m: f32,
+    sun: vec3f,
+    mu_s: f32,
+    sun_irradiance: vec3f,
+    sun_angular_radius: f32,
+    // Exponents of the limb's darkening, zero for an even disc.
+    limb_exponent: vec3f,
+    // 1 where the disc is shown.
+    disc: f32,
+}
+
+// Radiance scattered towards the observer.
+fn scattered_radiance(air: Air, view: View, light: Scattered, nu: f32) -> vec3f {
+    let single = rayleigh_phase(nu) * light.rayleigh + cornette_shanks_phase(nu, air.mie_asymmetry) * light.mie;
+    return view.sun_irradiance * (single + light.multiple);
+}
+
+// Radiance of the disc at an angle from its centre: E/(π α²) · Π (n+2)/2 · mu^n with mu = √(1-(γ/α)²) (Neckel and
+// Labs 1994 as a power law, Hestroffer and Magnan 1998). The factor keeps the irradiance: ∫ mu^n over the disc is
+// 2/(n+2). The edge is blended over one pixel.
+fn sun_disc(view: View, direction: vec3f, pixel_angle: f32) -> vec3f {
+    let alpha = view.sun_angular_radius;
+    if view.disc == 0.0 || alpha <= 0.0 {
+        return vec3f(0.0);
+    }
+    let angle = atan2(length(cross(direction, view.sun)), dot(direction, view.sun));
+    let cover = clamp(0.5 + (alpha - angle) / max(pixel_angle, 1e-9), 0.0, 1.0);
+    if cover <= 0.0 {
+        return vec3f(0.0);
+    }
+    let rim = min(angle / alpha, 1.0);
+    let mu = sqrt(max(1.0 - rim * rim, 1e-4));
+    let darkening = (view.limb_exponent + 2.0) * 0.5 * pow(vec3f(mu), view.limb_exponent);
+    // Solid angle of the cap, 2π(1 - cos α) = 4π sin²(α/2).
+    let half_sine = sin(0.5 * alpha);
+    return cover * darkening * view.sun_irradiance / (4.0 * PI * half_sine * half_sine);
+}
+
+// Radiance of the ground where the ray meets it, before the air in front: ρ/π (E_sun + E_sky).
+fn ground_radiance(
+    air: Air,
+    view: View,
+    nu: f32,
+    distance_m: f32,
+    transmittance_table: texture_2d<f32>,
+    irradiance_table: texture_2d<f32>,
+    linear_clamp: sampler,
+) -> vec3f {
+    let mu_s = cosine_after(air.radius_m, view.altitude_m, 0.0, view.mu_s, nu, distance_m);
+    let x = unit_to_coordinate(sun_cosine_unit(mu_s), textureDimensions(irradiance_table).x);
+    let sky = textureSampleLevel(irradiance_table, linear_clamp, vec2f(x, 0.5), 0.0).rgb;
+    let sun = max(mu_s, 0.0) * transmittance_to_space(air, transmittance_table, linear_clamp, 0.0, mu_s);
+    return view.sun_irradiance * air.ground_albedo / PI * (sun + sky);
+}

@@ -1,0 +1,111 @@
+// Table coordinates: each mapping stands beside its inverse. x in 0..1 spans the centres of the first and the last
+// texel, so that the ends of a range are stored exactly.
+import package::lib::geometry::{PI, horizon_distance_squared, distance_to_top, edge_zenith_angle};
+
+fn texel_to_unit(texel: u32, size: u32) -> f32 {
+    return f32(texel) / f32(size - 1u);
+}
+
+fn unit_to_coordinate(x: f32, size: u32) -> f32 {
+    return (0.5 + clamp(x, 0.0, 1.0) * f32(size - 1u)) / f32(size);
+}
+
+// Transmittance (Bruneton 2017): x from the distance d to the top, between that of the zenith and that of the
+// horizon; y = rho/H with rho and H the horizon distances from the point and from the top.
+struct HeightCosine {
+    altitude_m: f32,
+    mu: f32,
+}
+
+fn transmittance_unit(radius_m: f32, top_m: f32, p: HeightCosine) -> vec2f {
+    let h = clamp(p.altitude_m, 0.0, top_m);
+    let rho = sqrt(horizon_distance_squared(radius_m, h));
+    let rho_top = sqrt(horizon_distance_squared(radius_m, top_m));
+    let d_min = top_m - h;
+    let d_max = rho + rho_top;
+    let d = distance_to_top(radius_m, top_m, h, p.mu);
+    return vec2f((d - d_min) / max(d_max - d_min, 1e-6), rho / rho_top);
+}
+
+fn transmittance_point(radius_m: f32, top_m: f32, unit: vec2f) -> HeightCosine {
+    let rho_top = sqrt(horizon_distance_squared(radius_m, top_m));
+    let rho = rho_top * unit.y;
+    let h = rho * rho / (sqrt(radius_m * radius_m + rho * rho) + radius_m);
+    let d_min = top_m - h;
+    let d_max = rho + rho_top;
+    let d = d_min + unit.x * (d_max - d_min);
+    // (R+top)² = r² + d² + 2 r d mu
+    let mu = (rho_top * rho_top - rho * rho - d * d) / (2.0 * (radius_m + h) * max(d, 1e-6));
+    return HeightCosine(h, select(clamp(mu, -1.0, 1.0), 1.0, d <= 0.0));
+}
+
+// Multiple scattering: x is the sun's cosine, finer about the horizon; y is the height, finer towards the ground.
+fn sun_cosine_unit(mu_s: f32) -> f32 {
+    return 0.5 + 0.5 * sign(mu_s) * sqrt(abs(mu_s));
+}
+
+fn sun_cosine_point(x: f32) -> f32 {
+    let s = 2.0 * x - 1.0;
+    return s * abs(s);
+}
+
+fn multi_scattering_unit(top_m: f32, p: HeightCosine) -> vec2f {
+    return vec2f(sun_cosine_unit(p.mu), sqrt(clamp(p.altitude_m / top_m, 0.0, 1.0)));
+}
+
+fn multi_scattering_point(top_m: f32, unit: vec2f) -> HeightCosine {
+    return HeightCosine(unit.y * unit.y * top_m, sun_cosine_point(unit.x));
+}
+
+// Sky view, seen from one altitude. x is the azimuth from the sun over π: the sky is even in it. The lower half of the
+// rows holds rays to the ground by the distance to it, the upper half rays to space by the square root of the angle
+// over the horizon; no row belongs to both, so nothing bleeds over the horizon. Seen from outside, the upper half
+// spans only the air over the limb.
+struct SkyViewRay {
+    azimuth: f32,
+    zenith_angle: f32,
+    ground: bool,
+    // Of rays to the ground.
+    distance_m: f32,
+}
+
+fn least_zenith_angle(radius_m: f32, top_m: f32, altitude_m: f32) -> f32 {
+    if altitude_m <= top_m {
+        return 0.0;
+    }
+    return edge_zenith_angle(radius_m + top_m, altitude_m - top_m);
+}
+
+fn sky_view_ray(radius_m: f32, top_m: f32, altitude_m: f32, texel: vec2u, size: vec2u) -> SkyViewRay {
+    let half_rows = size.y / 2u;
+    let azimuth = PI * texel_to_unit(texel.x, size.x);
+    let horizon = edge_zenith_angle(radius_m, altitude_m);
+    if texel.y >= half_rows {
+        let y = texel_to_unit(texel.y - half_rows, half_rows);
+        let least = least_zenith_angle(radius_m, top_m, altitude_m);
+        return SkyViewRay(azimuth, horizon - y * y * (horizon - least), false, 0.0);
+    }
+    let y = texel_to_unit(texel.y, half_rows);
+    let squared = horizon_distance_squared(radius_m, altitude_m);
+    let d = altitude_m + y * (sqrt(squared) - altitude_m);
+    // R² = r² + d² + 2 r d mu
+    var mu = -1.0;
+    if d > altitude_m && d > 0.0 {
+        mu = clamp(-(squared + d * d) / (2.0 * (radius_m + altitude_m) * d), -1.0, 0.0);
+    }
+    return SkyViewRay(azimuth, acos(mu), true, d);
+}
+
+fn sky_view_coordinate(radius_m: f32, top_m: f32, altitude_m: f32, ray: SkyViewRay, size: vec2u) -> vec2f {
+    let half_rows = size.y / 2u;
+    let x = unit_to_coordinate(ray.azimuth / PI, size.x);
+    if ray.ground {
+        let farthest = sqrt(horizon_distance_squared(radius_m, altitude_m));
+        let y = (ray.distance_m - altitude_m) / max(farthest - altitude_m, 1e-3);
+        return vec2f(x, 0.5 * unit_to_coordinate(y, half_rows));
+    }
+    let horizon = edge_zenith_angle(radius_m, altitude_m);
+    let least = least_zenith_angle(radius_m, top_m, altitude_m);
+    let y = sqrt(clamp((horizon - ray.zenith_angle) / (horizon - least), 0.0, 1.0));
+    return vec2f(x, 0.5 + 0.5 * unit_to_coordinate(y, half_rows));
+}

@@ -1,0 +1,34 @@
+// Light in the air, for every direction from one height, for a sun of unit irradiance. The phase functions are left
+// to the reader: without them the table is smooth in azimuth, few columns serve, and the aureole is exact at any zoom.
+import package::lib::air::Air;
+import package::lib::geometry::distance_to_top;
+import package::lib::scattering::{AirRay, Scattered, scatter_along};
+import package::lib::view_ray::{Observer, enter_air};
+import package::lib::tables::sky_view_ray;
+
+@group(0) @binding(0) var<uniform> air: Air;
+@group(0) @binding(1) var<uniform> observer: Observer;
+@group(0) @binding(2) var transmittance_table: texture_2d<f32>;
+@group(0) @binding(3) var linear_clamp: sampler;
+@group(0) @binding(4) var multi_scattering_table: texture_2d_array<f32>;
+// Layers: Rayleigh, Mie, multiple; their alpha is the optical depth in R, G, B.
+@group(0) @binding(5) var table: texture_storage_2d_array<rgba32float, write>;
+
+@compute @workgroup_size(8, 8)
+fn sky_view(@builtin(global_invocation_id) id: vec3u) {
+    let size = textureDimensions(table);
+    if any(id.xy >= size) {
+        return;
+    }
+    let ray = sky_view_ray(air.radius_m, air.top_m, observer.altitude_m, id.xy, size);
+    let mu = cos(ray.zenith_angle);
+    let nu = mu * observer.mu_s + sin(ray.zenith_angle) * observer.sin_s * cos(ray.azimuth);
+    let entry = enter_air(air, observer, mu, clamp(nu, -1.0, 1.0), ray.ground, ray.distance_m);
+    var light: Scattered;
+    if entry.length_m > 0.0 {
+        light = scatter_along(air, entry, transmittance_table, multi_scattering_table, linear_clamp, observer.steps, true);
+    }
+    textureStore(table, id.xy, 0, vec4f(light.rayleigh, light.optical_depth.r));
+    textureStore(table, id.xy, 1, vec4f(light.mie, light.optical_depth.g));
+    textureStore(table, id.xy, 2, vec4f(light.multiple, light.optical_depth.b));
+}

@@ -1,0 +1,74 @@
+// From radiance to the picture: exposure, white balance, tone curve, sRGB, dither.
+import package::lib::colour::{LUMINANCE_PER_RADIANCE, aces, agx, exponential, reinhard, srgb_encode};
+
+struct Tone {
+    // White balance, rows of a 3×3 matrix on linear Rec. 709.
+    white_r: vec3f,
+    // 0 reinhard, 1 exponential, 2 aces, 3 agx.
+    curve: u32,
+    white_g: vec3f,
+    // 1 where the meter's exposure counts.
+    metered: u32,
+    white_b: vec3f,
+    // 1 to dither.
+    dither: u32,
+    // Multiplies radiance where nothing is metered.
+    gain: vec3f,
+    pad: f32,
+    origin_px: vec2u,
+    size_px: vec2u,
+}
+
+struct Exposure {
+    scale: f32,
+    ev100: f32,
+}
+
+@group(0) @binding(0) var<uniform> tone_settings: Tone;
+@group(0) @binding(1) var<storage, read> exposure: Exposure;
+@group(0) @binding(2) var<storage, read> radiance: array<vec4f>;
+// R, G, B, A bytes, from the least significant.
+@group(0) @binding(3) var<storage, read_write> picture: array<u32>;
+
+// A hash of the pixel's place in the whole frame (PCG, O'Neill 2014), so that tiles leave no seam.
+fn hash(v: vec3u) -> vec3u {
+    var x = v * 1664525u + 1013904223u;
+    x.x += x.y * x.z;
+    x.y += x.z * x.x;
+    x.z += x.x * x.y;
+    x ^= x >> vec3u(16u);
+    x.x += x.y * x.z;
+    x.y += x.z * x.x;
+    x.z += x.x * x.y;
+    return x;
+}
+
+// Triangular noise of ±1 step: the mean and the noise of what is seen no longer depend on the value.
+fn dither_noise(pixel: vec2u) -> vec3f {
+    let a = vec3f(hash(vec3u(pixel, 0u)) >> vec3u(8u)) / 16777216.0;
+    let b = vec3f(hash(vec3u(pixel, 1u)) >> vec3u(8u)) / 16777216.0;
+    return a - b;
+}
+
+@compute @workgroup_size(8, 8)
+fn tone(@builtin(global_invocation_id) id: vec3u) {
+    if any(id.xy >= tone_settings.size_px) {
+        return;
+    }
+    let i = id.y * tone_settings.size_px.x + id.x;
+    let gain = select(tone_settings.gain, LUMINANCE_PER_RADIANCE * exposure.scale, tone_settings.metered == 1u);
+    let exposed = gain * radiance[i].rgb;
+    let balanced = max(vec3f(dot(tone_settings.white_r, exposed), dot(tone_settings.white_g, exposed), dot(tone_settings.white_b, exposed)), vec3f(0.0));
+    var shown: vec3f;
+    switch tone_settings.curve {
+        case 0u: { shown = reinhard(balanced); }
+        case 1u: { shown = exponential(balanced); }
+        case 2u: { shown = aces(balanced); }
+        default: { shown = agx(balanced); }
+    }
+    var bytes = 255.0 * srgb_encode(shown);
+    if tone_settings.dither == 1u && radiance[i].a > 0.0 {
+        bytes += dither_noise(tone_settings.origin_px + id.xy);
+    }
+    picture[i] = pack4x8unorm(vec4f(bytes / 255.0, 1.0));
+}
