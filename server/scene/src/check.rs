@@ -11,6 +11,7 @@ use crate::{
     solar::{YEARS, later, moment},
     sun::SunPosition,
 };
+use chrono::SecondsFormat;
 use serde_json::json;
 
 /// Highest camera, metres over the ground: a quarter of the way to the moon.
@@ -120,7 +121,7 @@ fn sun(scene: &Scene, at: &str, problems: &mut Problems) {
         Some(moment) if later(moment, scene.time_s).is_none() => {
             let allowed = format!(
                 "a number of seconds that leads from {} to a time in the years {years}",
-                place.time
+                moment.to_rfc3339_opts(SecondsFormat::Secs, true)
             );
             problems.push(Problem::new(
                 format!("{at}/time_s"),

@@ -67,12 +67,13 @@ fn read<T: DeserializeOwned + Check>(rules: &Rules, value: &Value) -> Result<T, 
     if !rules.validator.is_valid(value) {
         let mut problems = Problems::default();
         explain(&rules.schema, &rules.schema, "", value, &mut problems);
-        problems.or(())?;
+        // The validator has the last word, should it ever know a keyword that `explain` does not.
+        return Err(problems.refuse(|| Problem::new(String::new(), value, "as its schema says".into())));
     }
     let document: T = serde_path_to_error::deserialize(value).map_err(|e| {
         let (pointer, reason) = (pointer(e.path()), e.inner().to_string());
         let held = value.pointer(&pointer).unwrap_or(&Value::Null);
-        let mut problem = Problem::new(pointer, held, "as the schema says".into());
+        let mut problem = Problem::new(pointer, held, "as its schema says".into());
         problem.message = reason;
         SceneError::Invalid(vec![problem])
     })?;

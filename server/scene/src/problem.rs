@@ -72,6 +72,14 @@ impl Problems {
         self.0.len() >= MAX_PROBLEMS
     }
 
+    /// Refuses, for `reason` if for nothing else.
+    pub(crate) fn refuse(mut self, reason: impl FnOnce() -> Problem) -> SceneError {
+        if self.0.is_empty() {
+            self.0.push(reason());
+        }
+        SceneError::Invalid(self.0)
+    }
+
     /// The value, if nothing is wrong with it.
     pub(crate) fn or<T>(self, value: T) -> Result<T, SceneError> {
         if self.0.is_empty() {

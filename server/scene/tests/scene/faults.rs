@@ -361,6 +361,9 @@ fn huge_documents_give_short_answers() {
     let documents = [
         json!({"display": {"tone_curve": long}}),
         json!({"sun": {"position": {"time": long, "latitude_deg": 0, "longitude_deg": 0}}}),
+        json!({"time_s": 1e9, "sun": {"position": {
+            "time": format!("2090-01-01T00:00:00.{}Z", "0".repeat(1 << 20)), "latitude_deg": 0, "longitude_deg": 0
+        }}}),
         json!({ long.as_str(): { long.as_str(): 1 } }),
         json!({"camera": {"direction": vec![json!("y"); 1 << 18]}}),
         json!({"camera": {"position_m": vec![json!({"é": "ü".repeat(50)}); 1 << 10]}}),
@@ -373,6 +376,14 @@ fn huge_documents_give_short_answers() {
     let pointer = format!(r#"{{"{long}": {{"a": NaN}}}}"#);
     assert!(
         matches!(Scene::from_json(&pointer), Err(SceneError::Malformed { pointer, .. }) if pointer.is_empty())
+    );
+    let nested = format!("{}NaN", "{\"a name of some length\":".repeat(100));
+    let Err(SceneError::Malformed { pointer, .. }) = Scene::from_json(&nested) else {
+        panic!("NaN was read")
+    };
+    assert!(
+        pointer.ends_with("/a name of some length") && pointer.len() <= 256,
+        "{pointer}"
     );
     let deep = "[".repeat(1 << 20);
     assert!(
