@@ -1,0 +1,81 @@
+//! `welkin serve`
+
+use super::{Failure, logging};
+use crate::settings::{ServeFlags, Settings};
+use sha2::{Digest, Sha256};
+use std::{env, fs::File, io, path::Path};
+use welkin_service::{Service, listen, serve};
+
+/// Arguments of `welkin serve`.
+#[derive(clap::Args)]
+pub(crate) struct Args {
+    #[command(flatten)]
+    flags: ServeFlags,
+}
+
+/// Serves until it is interrupted.
+///
+/// # Errors
+/// Where the address is taken or there is no device.
+pub(crate) fn run(args: &Args, config: Option<&Path>) -> Result<(), Failure> {
+    let settings = Settings::load(config, &args.flags)?;
+    logging::start(&settings)?;
+    let runtime = tokio::runtime::Runtime::new().map_err(Failure::file("starting"))?;
+    let served = runtime.block_on(until_stopped(&settings));
+    // An encoder in the middle of a file for nobody is not waited for.
+    runtime.shutdown_background();
+    served
+}
+
+async fn until_stopped(settings: &Settings) -> Result<(), Failure> {
+    let listener = listen(&settings.listen).await?;
+    let address = listener.local_addr().map_err(Failure::file("listening"))?;
+    let renderer = tokio::task::block_in_place(|| crate::open_renderer(settings))?;
+    let (build, adapter) = (build(), renderer.device().adapter);
+    tracing::info!(build, "Welkin is at http://{address} (adapter {adapter})");
+    let service = Service::new(renderer, settings.service(build));
+    let stop = stopped().map_err(Failure::file("waiting for signals"))?;
+    Ok(serve(service, listener, stop).await?)
+}
+
+/// Ready at the first interrupt or termination; the second ends the process at once.
+#[cfg(unix)]
+fn stopped() -> io::Result<impl Future<Output = ()>> {
+    use tokio::signal::unix::{SignalKind, signal};
+    let (mut interrupt, mut terminate) = (signal(SignalKind::interrupt())?, signal(SignalKind::terminate())?);
+    Ok(async move {
+        tokio::select! {
+            _ = interrupt.recv() => {}
+            _ = terminate.recv() => {}
+        }
+        tokio::spawn(async move {
+            interrupt.recv().await;
+            std::process::exit(130);
+        });
+    })
+}
+
+/// Ready at the first interrupt.
+#[cfg(not(unix))]
+fn stopped() -> io::Result<impl Future<Output = ()>> {
+    Ok(async {
+        if let Err(error) = tokio::signal::ctrl_c().await {
+            tracing::warn!(%error, "interrupts cannot be heard");
+            std::future::pending::<()>().await;
+        }
+    })
+}
+
+/// The version, and a fingerprint of the program itself: every change of shaders or code makes other entity tags.
+fn build() -> String {
+    let version = env!("CARGO_PKG_VERSION");
+    let fingerprint = || -> io::Result<String> {
+        let mut hash = Sha256::new();
+        io::copy(&mut File::open(env::current_exe()?)?, &mut hash)?;
+        Ok(hash.finalize()[..4]
+            .iter()
+            .map(|byte| format!("{byte:02x}"))
+            .collect())
+    };
+    fingerprint().map_or_else(|_| version.to_owned(), |print| format!("{version}+{print}"))
+}

@@ -1,0 +1,241 @@
+//! Settings: flags go before the environment (`WELKIN_…`), that before a TOML file, that before defaults.
+
+use clap::{Args, ValueEnum};
+use figment::{
+    Figment,
+    providers::{Env, Format, Serialized, Toml},
+};
+use serde::{Deserialize, Serialize};
+use std::path::Path;
+
+/// Looked for in the working directory when no other file is named.
+const DEFAULT_FILE: &str = "welkin.toml";
+
+/// All that may be set.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct Settings {
+    pub(crate) adapter: Option<String>,
+    pub(crate) require_gpu: bool,
+    pub(crate) queue_places: usize,
+    pub(crate) listen: String,
+    pub(crate) cache_bytes: u64,
+    pub(crate) frame_memory_bytes: u64,
+    pub(crate) max_frame_pixels: u64,
+    pub(crate) max_viewers: u32,
+    pub(crate) log: String,
+    pub(crate) log_format: LogFormat,
+}
+
+/// Names of the settings, as the environment has them after `WELKIN_` (in capitals).
+const NAMES: [&str; 10] = [
+    "adapter",
+    "require_gpu",
+    "queue_places",
+    "listen",
+    "cache_bytes",
+    "frame_memory_bytes",
+    "max_frame_pixels",
+    "max_viewers",
+    "log",
+    "log_format",
+];
+
+/// How log lines look.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, ValueEnum)]
+#[serde(rename_all = "kebab-case")]
+pub(crate) enum LogFormat {
+    /// For people.
+    #[default]
+    Text,
+    /// One JSON object a line.
+    Json,
+}
+
+impl Default for Settings {
+    fn default() -> Self {
+        let service = welkin_service::Settings::default();
+        Self {
+            adapter: None,
+            require_gpu: false,
+            queue_places: 64,
+            listen: "127.0.0.1:8080".into(),
+            cache_bytes: service.cache_bytes,
+            frame_memory_bytes: service.frame_memory_bytes,
+            max_frame_pixels: service.max_frame_pixels,
+            max_viewers: service.max_viewers,
+            log: "info".into(),
+            log_format: LogFormat::Text,
+        }
+    }
+}
+
+/// Flags of the commands that render.
+#[derive(Args, Clone, Debug, Default, Serialize)]
+pub(crate) struct DeviceFlags {
+    /// Part of the adapter's name; `welkin devices` lists them [default: the fastest]
+    #[arg(long, value_name = "NAME")]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    adapter: Option<String>,
+    /// Refuse to render in software [default: false]
+    #[arg(long, num_args = 0..=1, default_missing_value = "true", value_name = "BOOL")]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    require_gpu: Option<bool>,
+}
+
+/// Flags of `welkin serve`.
+#[derive(Args, Clone, Debug, Default, Serialize)]
+pub(crate) struct ServeFlags {
+    #[command(flatten)]
+    #[serde(flatten)]
+    device: DeviceFlags,
+    /// Address and port [default: 127.0.0.1:8080]
+    #[arg(long, value_name = "ADDRESS:PORT")]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    listen: Option<String>,
+    /// Orders that wait or are rendered at once; more are answered 503 [default: 64]
+    #[arg(long, value_name = "COUNT")]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    queue_places: Option<usize>,
+    /// Memory for finished frames, bytes [default: 268435456]
+    #[arg(long, value_name = "BYTES")]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    cache_bytes: Option<u64>,
+    /// Memory for the pixels of frames in work, bytes; 12 a pixel for radiance, 3 for a picture
+    /// [default: 4294967296]
+    #[arg(long, value_name = "BYTES")]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    frame_memory_bytes: Option<u64>,
+    /// The largest frame, pixels [default: 268435456]
+    #[arg(long, value_name = "PIXELS")]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    max_frame_pixels: Option<u64>,
+    /// Live viewers at once [default: 64]
+    #[arg(long, value_name = "COUNT")]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    max_viewers: Option<u32>,
+    /// What is logged: error, warn, info, debug, or a filter such as welkin_service=debug [default: info]
+    #[arg(long, value_name = "FILTER")]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    log: Option<String>,
+    /// How log lines look [default: text]
+    #[arg(long, value_name = "FORMAT")]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    log_format: Option<LogFormat>,
+}
+
+impl Settings {
+    /// Merges all sources. Unknown names in the file are refused; the environment may hold others.
+    ///
+    /// # Errors
+    /// Names the setting and where its value came from.
+    pub(crate) fn load(file: Option<&Path>, flags: &impl Serialize) -> Result<Self, Box<figment::Error>> {
+        let file = file.or_else(|| Some(Path::new(DEFAULT_FILE)).filter(|file| file.exists()));
+        let mut merged = Figment::from(Serialized::defaults(Self::default()));
+        if let Some(file) = file {
+            merged = merged.merge(Toml::file_exact(file));
+        }
+        let merged = merged
+            .merge(Env::prefixed("WELKIN_").only(&NAMES))
+            .merge(Serialized::defaults(flags));
+        merged.extract().map_err(Box::new)
+    }
+
+    /// The part that the service knows.
+    pub(crate) fn service(&self, build: String) -> welkin_service::Settings {
+        welkin_service::Settings {
+            build,
+            cache_bytes: self.cache_bytes,
+            frame_memory_bytes: self.frame_memory_bytes,
+            max_frame_pixels: self.max_frame_pixels,
+            max_viewers: self.max_viewers,
+            ..welkin_service::Settings::default()
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(
+        clippy::unwrap_used,
+        clippy::result_large_err,
+        reason = "tests fail by panicking; the error is figment's"
+    )]
+
+    use super::*;
+    use clap::CommandFactory;
+    use figment::Jail;
+
+    #[derive(clap::Parser)]
+    struct Flags {
+        #[command(flatten)]
+        flags: ServeFlags,
+    }
+
+    #[test]
+    fn flags_beat_the_environment_beats_the_file_beats_defaults() {
+        Jail::expect_with(|jail| {
+            let load = |flags: &ServeFlags| Settings::load(None, flags).map_err(|e| *e);
+            assert_eq!(load(&ServeFlags::default())?, Settings::default());
+            jail.create_file(
+                "welkin.toml",
+                "listen = \"file\"\nmax_viewers = 3\nlog_format = \"json\"",
+            )?;
+            jail.set_env("WELKIN_LISTEN", "environment");
+            jail.set_env("WELKIN_MAX_VIEWERS", "4");
+            jail.set_env("WELKIN_SOMETHING_ELSE", "is nobody's business");
+            let flags = ServeFlags {
+                listen: Some("flag".into()),
+                ..ServeFlags::default()
+            };
+            let settings = load(&flags)?;
+            assert_eq!(settings.listen, "flag");
+            assert_eq!(settings.max_viewers, 4);
+            assert_eq!(settings.log_format, LogFormat::Json);
+            assert_eq!(settings.cache_bytes, Settings::default().cache_bytes);
+            Ok(())
+        });
+    }
+
+    #[test]
+    fn what_is_wrong_is_named() {
+        Jail::expect_with(|jail| {
+            jail.create_file("other.toml", "max_viewrs = 3")?;
+            let error = Settings::load(Some(Path::new("other.toml")), &ServeFlags::default()).unwrap_err();
+            assert!(error.to_string().contains("max_viewrs"), "{error}");
+            assert!(Settings::load(Some(Path::new("missing.toml")), &ServeFlags::default()).is_err());
+            jail.set_env("WELKIN_CACHE_BYTES", "plenty");
+            let error = Settings::load(None, &ServeFlags::default()).unwrap_err();
+            assert!(
+                error.to_string().to_lowercase().contains("cache_bytes"),
+                "{error}"
+            );
+            Ok(())
+        });
+    }
+
+    /// The help repeats the defaults in words; this keeps it true.
+    #[test]
+    fn the_help_tells_the_defaults() {
+        let help = Flags::command().render_long_help().to_string();
+        let words = help.split_whitespace().collect::<Vec<_>>().join(" ");
+        let defaults = serde_json::to_value(Settings::default()).unwrap();
+        for name in NAMES {
+            let flag = format!("--{}", name.replace('_', "-"));
+            let value = match &defaults[name] {
+                serde_json::Value::Null => "the fastest".to_owned(),
+                serde_json::Value::String(text) => text.clone(),
+                other => other.to_string(),
+            };
+            let (_, after) = words
+                .split_once(&format!("{flag} "))
+                .or_else(|| words.split_once(&format!("{flag}[")))
+                .unwrap();
+            let (_, told) = after.split_once("[default: ").unwrap();
+            assert!(
+                told.starts_with(&format!("{value}]")),
+                "{flag}: {value}, told {told:.40}"
+            );
+        }
+    }
+}
