@@ -182,14 +182,14 @@ test('on a phone nothing overflows, and the panel is a sheet at the bottom', () 
 test('help, panel and everything else are shown and hidden by keys', () =>
   open(async (page) => {
     await page.keyboard.press('?');
-    assert.ok(await page.locator('#help').isVisible());
+    await page.locator('#help').waitFor({ state: 'visible' });
     assert.match((await page.locator('#help .keys').textContent()) ?? '', /Move the sun/);
     await page.keyboard.press('Escape');
     await page.locator('#help').waitFor({ state: 'hidden' });
     await page.keyboard.press('p');
-    assert.ok(await page.locator('#panel').isHidden());
+    await page.locator('#panel').waitFor({ state: 'hidden' });
     await page.keyboard.press('h');
-    assert.ok(await page.locator('#hud').isHidden());
+    await page.locator('#hud').waitFor({ state: 'hidden' });
     await page.keyboard.press('h');
-    assert.ok(await page.locator('#hud').isVisible());
+    await page.locator('#hud').waitFor({ state: 'visible' });
   }));
