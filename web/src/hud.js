@@ -39,9 +39,12 @@ export function createHud() {
       showRate();
       size.textContent = `${width} × ${height}`;
     },
-    /** Passes that were kept from before are not among them. @param {{passes: {pass: string, ms: number}[], render_ms: number}} stats */
+    /** Passes whose results were kept are not among them. @param {{passes: {pass: string, ms: number}[], render_ms: number}} stats */
     times({ passes: times, render_ms }) {
-      time.textContent = milliseconds(render_ms);
+      const kept = times.length === 0;
+      time.textContent = kept ? 'kept' : milliseconds(render_ms);
+      time.title = kept ? 'This picture had been rendered before' : 'From the order to the picture';
+      if (kept) return passes.replaceChildren(h('dt', { class: 'note' }, 'Nothing was computed: this picture had been kept.'));
       const longest = Math.max(...times.map(({ ms }) => ms), 1);
       passes.replaceChildren(
         ...times.flatMap(({ pass, ms }) => [
