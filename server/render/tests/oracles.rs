@@ -66,6 +66,7 @@ fn single_scattering_matches_the_oracle_in_every_direction() {
             scene(altitude_m, zenith_deg, "single", 0.0),
             directions,
         );
+        let allowed = if zenith_deg < 90.0 { 1e-3 } else { 1e-2 };
         for (i, row) in rows.iter().enumerate() {
             assert_eq!(
                 answer.distance_m[i].is_some(),
