@@ -2,7 +2,7 @@
 
 use super::Failure;
 use crate::settings::{LogFormat, Settings};
-use std::io;
+use std::io::{self, IsTerminal};
 use tracing_subscriber::EnvFilter;
 
 /// For the service: as settings say, on standard error.
@@ -14,10 +14,11 @@ pub(crate) fn start(settings: &Settings) -> Result<(), Failure> {
         .map_err(|e| Failure::Usage(format!("log: {:?} is not a filter: {e}", settings.log)))?;
     let log = tracing_subscriber::fmt()
         .with_env_filter(filter)
-        .with_writer(io::stderr);
+        .with_writer(io::stderr)
+        .with_ansi(io::stderr().is_terminal());
     match settings.log_format {
         LogFormat::Text => log.init(),
-        LogFormat::Json => log.json().flatten_event(true).init(),
+        LogFormat::Json => log.json().flatten_event(true).with_span_list(false).init(),
     }
     Ok(())
 }
@@ -27,6 +28,7 @@ pub(crate) fn quiet() {
     tracing_subscriber::fmt()
         .with_env_filter(EnvFilter::new("warn"))
         .with_writer(io::stderr)
+        .with_ansi(io::stderr().is_terminal())
         .without_time()
         .init();
 }

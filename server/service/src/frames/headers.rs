@@ -79,7 +79,9 @@ fn timing(picture: &Picture, source: Source) -> String {
     let passes_ms: f64 = picture.passes.iter().map(|pass| pass.ms).sum();
     let queue_ms = (ms(picture.rendering) - passes_ms).max(0.0);
     let entry = |name: &str, ms: f64| format!("{name};dur={ms:.2}");
-    let first = std::iter::once(entry("queue", queue_ms));
+    let first = std::iter::once(format!(
+        "queue;dur={queue_ms:.2};desc=\"waiting and what no pass counts\""
+    ));
     let passes = picture.passes.iter().map(|pass| entry(pass.pass, pass.ms));
     first
         .chain(passes)

@@ -259,3 +259,39 @@ fn no_preset(name: &str) -> Error {
     let message = format!("there is no preset `{shown}`");
     Error::Invalid(vec![Fault::query("preset", shown, names.join(", "), message)])
 }
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, reason = "tests fail by panicking")]
+
+    use super::*;
+    use proptest::prelude::*;
+
+    /// What the OpenAPI document tells is what is read.
+    #[test]
+    fn the_names_are_those_of_the_description() {
+        let described: Vec<_> = FrameQuery::into_params(|| None)
+            .into_iter()
+            .map(|param| param.name)
+            .collect();
+        assert_eq!(described, NAMES);
+    }
+
+    proptest! {
+        #[test]
+        fn any_query_is_answered(query in "[!-~]{0,60}") {
+            let _ = read(&query);
+        }
+
+        #[test]
+        fn any_value_is_answered(name in prop::sample::select(&NAMES[..]), value in "[ -~&&[^&#]]{0,20}") {
+            let _ = read(&format!("{name}={value}"));
+        }
+
+        #[test]
+        fn sizes_arrive(width_px in 1..=16_384_u32, height_px in 1..=16_384_u32) {
+            let request = read(&format!("height_px={height_px}&width_px={width_px}")).unwrap();
+            prop_assert_eq!((request.width_px, request.height_px), (width_px, height_px));
+        }
+    }
+}

@@ -201,3 +201,33 @@ fn echo(value: &Value) -> Value {
 fn short(text: &str) -> String {
     text.chars().take(64).collect()
 }
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, reason = "tests fail by panicking")]
+
+    use super::*;
+    use proptest::prelude::*;
+    use serde_json::json;
+
+    proptest! {
+        #[test]
+        fn any_text_is_answered(text in ".{0,200}") {
+            let _ = read(&text);
+        }
+
+        /// Near misses: the right members with any value.
+        #[test]
+        fn any_member_is_answered(member in "seq|scene|patch|output|[a-z/~]{0,9}", value in "null|-?[0-9]{1,12}|\\{\\}|\"\"") {
+            let _ = read(&format!("{{\"seq\": 1, {}: {value}}}", json!(member)));
+        }
+
+        #[test]
+        fn what_is_said_is_heard(seq: u32, width_px in MIN_SIDE_PX..=MAX_SIDE_PX, time_s: i32) {
+            let text = json!({"seq": seq, "patch": {"time_s": time_s}, "output": {"width_px": width_px}}).to_string();
+            let output = OutputChange { width_px: Some(width_px), ..OutputChange::default() };
+            let heard = Message { seq, scene: None, patch: Some(json!({"time_s": time_s})), output: Some(output) };
+            prop_assert_eq!(read(&text).unwrap(), heard);
+        }
+    }
+}
