@@ -1,4 +1,5 @@
-// From radiance to the picture: exposure, white balance, tone curve, sRGB, dither.
+// From radiance to the picture: the lens' glare, exposure, white balance, tone curve, sRGB, dither.
+import package::lib::camera::{Camera, sight_at};
 import package::lib::colour::{LUMINANCE_PER_RADIANCE, aces, agx, exponential, reinhard, srgb_encode};
 
 struct Tone {
@@ -14,7 +15,11 @@ struct Tone {
     dither: u32,
     // Multiplies radiance where nothing is metered.
     gain: vec3f,
-    pad: f32,
+    glare: f32,
+    // Irradiance of the visible disc at the observer, and where it stands.
+    sun_irradiance: vec3f,
+    sun_angular_radius: f32,
+    sun: vec3f,
     origin_px: vec2u,
     size_px: vec2u,
 }
@@ -26,9 +31,10 @@ struct Exposure {
 
 @group(0) @binding(0) var<uniform> tone_settings: Tone;
 @group(0) @binding(1) var<storage, read> exposure: Exposure;
-@group(0) @binding(2) var<storage, read> radiance: array<vec4f>;
+@group(0) @binding(2) var<uniform> camera: Camera;
+@group(0) @binding(3) var<storage, read> radiance: array<vec4f>;
 // R, G, B, A bytes, from the least significant.
-@group(0) @binding(3) var<storage, read_write> picture: array<u32>;
+@group(0) @binding(4) var<storage, read_write> picture: array<u32>;
 
 // A hash of the pixel's place in the whole frame (PCG, O'Neill 2014), so that tiles leave no seam.
 fn hash(v: vec3u) -> vec3u {
@@ -50,6 +56,19 @@ fn dither_noise(pixel: vec2u) -> vec3f {
     return a - b;
 }
 
+// Veiling luminance falls as E/θ² about a bright source and as E/θ³ farther off (CIE 146 has 10/θ³ + 5/θ² with θ in
+// degrees for a healthy eye); a clean lens spreads about a thirtieth of that. Inside the disc it is even.
+const LENS_VEIL = 0.35;
+const VEIL_STEEPENS_DEG = 2.5;
+
+fn lens_glare(pixel: vec2f) -> vec3f {
+    let direction = sight_at(camera, pixel).direction;
+    let angle = atan2(length(cross(direction, tone_settings.sun)), dot(direction, tone_settings.sun));
+    let off_deg = degrees(max(angle, tone_settings.sun_angular_radius));
+    let veil = LENS_VEIL / (max(off_deg * off_deg, 0.01) * (1.0 + off_deg / VEIL_STEEPENS_DEG));
+    return tone_settings.glare * veil * tone_settings.sun_irradiance;
+}
+
 @compute @workgroup_size(8, 8)
 fn tone(@builtin(global_invocation_id) id: vec3u) {
     if any(id.xy >= tone_settings.size_px) {
@@ -57,7 +76,11 @@ fn tone(@builtin(global_invocation_id) id: vec3u) {
     }
     let i = id.y * tone_settings.size_px.x + id.x;
     let gain = select(tone_settings.gain, LUMINANCE_PER_RADIANCE * exposure.scale, tone_settings.metered == 1u);
-    let exposed = gain * radiance[i].rgb;
+    var seen = radiance[i].rgb;
+    if tone_settings.glare > 0.0 && radiance[i].a > 0.0 {
+        seen += lens_glare(vec2f(tone_settings.origin_px + id.xy) + 0.5);
+    }
+    let exposed = gain * seen;
     let balanced = max(vec3f(dot(tone_settings.white_r, exposed), dot(tone_settings.white_g, exposed), dot(tone_settings.white_b, exposed)), vec3f(0.0));
     var shown: vec3f;
     switch tone_settings.curve {

@@ -1,8 +1,8 @@
 // From the three bands to light as people see it, and to the screen.
 
-// cd/m² in linear Rec. 709 R, G, B for one W/m²/sr/nm in each band, for the sun's spectrum (Bruneton 2017, computed
-// from CIE 1931 at 680, 550 and 440 nm). They make the sun above the air a slightly warm white, as it is.
-const LUMINANCE_PER_RADIANCE = vec3f(98242.786, 69954.398, 66475.012);
+// cd/m² in linear Rec. 709 R, G, B for one W/m²/sr/nm in each band. A camera set to daylight: the sun above the air,
+// (1.474, 1.8504, 1.91198) W/m²/nm, is white, and sends the solar illuminance of 133 klx (ASTM E490).
+const LUMINANCE_PER_RADIANCE = vec3f(90231.0, 71876.0, 69561.0);
 // Luminance of linear Rec. 709.
 const LUMA = vec3f(0.2126, 0.7152, 0.0722);
 
@@ -38,6 +38,9 @@ fn aces(c: vec3f) -> vec3f {
 // AgX (Sobotka 2022): primaries drawn in, sixteen and a half stops of log, one S-curve (Wrensch's polynomial fit),
 // primaries drawn out. The curve gives display values of gamma 2.2; they are made linear again for the exact sRGB
 // curve after it.
+const AGX_POWER = 1.1;
+const AGX_SATURATION = 1.25;
+
 fn agx(c: vec3f) -> vec3f {
     let inset = mat3x3f(
         0.842479062253094, 0.0423282422610123, 0.0423756549057051,
@@ -55,5 +58,7 @@ fn agx(c: vec3f) -> vec3f {
     let x2 = x * x;
     let x4 = x2 * x2;
     let curve = 15.5 * x4 * x2 - 40.14 * x4 * x + 31.96 * x4 - 6.868 * x2 * x + 0.4298 * x2 + 0.1191 * x - 0.00232;
-    return pow(clamp(outset * curve, vec3f(0.0), vec3f(1.0)), vec3f(2.2));
+    let steep = pow(max(curve, vec3f(0.0)), vec3f(AGX_POWER));
+    let graded = max(mix(vec3f(dot(LUMA, steep)), steep, AGX_SATURATION), vec3f(0.0));
+    return pow(clamp(outset * graded, vec3f(0.0), vec3f(1.0)), vec3f(2.2));
 }

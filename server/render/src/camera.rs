@@ -4,7 +4,7 @@ use crate::uniforms::narrow;
 use encase::ShaderType;
 use glam::{DVec3, UVec2, Vec2, Vec3};
 use std::f64::consts::PI;
-use welkin_scene::{Camera, FisheyeMapping, Projection};
+use welkin_scene::{Camera, Direction, FisheyeMapping, Projection};
 
 /// `Camera` of `lib/camera.wgsl`.
 #[derive(Clone, Debug, ShaderType)]
@@ -21,14 +21,14 @@ pub(crate) struct CameraUniform {
 impl CameraUniform {
     pub(crate) fn new(camera: &Camera, size_px: UVec2) -> Self {
         let forward = DVec3::from_array(camera.direction.unit());
-        // Straight up or down there is no horizon to be level with: the top of the picture then points north or south
-        // as it would when tilting there from the north.
-        let level = forward.cross(DVec3::Z);
-        let right = if level.length() > 1e-9 {
-            level.normalize()
-        } else {
-            DVec3::X
+        // The right edge lies a quarter turn clockwise from the azimuth; so a camera that tilts through the zenith does
+        // not spin. A vector straight up or down has no azimuth and counts as north.
+        let azimuth = match camera.direction {
+            Direction::Angles(angles) => angles.azimuth_deg,
+            vector @ Direction::Vector(_) => vector.to_angles().azimuth_deg,
         };
+        let (sin, cos) = azimuth.to_radians().sin_cos();
+        let right = DVec3::new(cos, -sin, 0.0);
         let up = right.cross(forward);
         let (sin, cos) = camera.roll_deg.to_radians().sin_cos();
         let (right, up) = (right * cos - up * sin, up * cos + right * sin);

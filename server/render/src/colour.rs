@@ -1,7 +1,7 @@
 //! White balance, and what the bands mean to the eye.
 
 /// cd/m² in linear Rec. 709 for one W/m²/sr/nm in each band; the same numbers as in `lib/colour.wgsl`.
-pub(crate) const LUMINANCE_PER_RADIANCE: [f64; 3] = [98_242.786, 69_954.398, 66_475.012];
+pub(crate) const LUMINANCE_PER_RADIANCE: [f64; 3] = [90_231.0, 71_876.0, 69_561.0];
 
 type Matrix = [[f64; 3]; 3];
 

@@ -2,7 +2,6 @@
 
 use crate::{
     camera::CameraUniform,
-    cpu::air::transmittance_to_space,
     error::Error,
     gpu::{AdapterChoice, Gpu},
     kernel::Recorder,
@@ -17,12 +16,13 @@ use crate::{
         transmittance::Transmittance,
     },
     screen::{PICTURE_BYTES, RADIANCE_BYTES, Screen},
+    sunlight::direct_normal,
     uniforms::{AirUniform, Part, Standpoint, TileUniform, ToneUniform, ViewUniform},
 };
 use glam::UVec2;
 use std::sync::Arc;
 use welkin_scene::{
-    Atmosphere, Exposure, Quality, Scene, Sun,
+    Exposure, Quality, Scene, Sun,
     renderer::{FrameFacts, FrameOrder, Output, PassTime},
 };
 
@@ -55,6 +55,8 @@ pub(crate) struct Prepared {
     camera_part: Part,
     sky_view: Arc<Table>,
     exposure: Arc<wgpu::Buffer>,
+    /// Irradiance of the visible disc, W/m².
+    sunlight: [f64; 3],
 }
 
 impl Engine {
@@ -138,6 +140,7 @@ impl Engine {
             let view = Part::new(&ViewUniform::new(&scene.sun, &tables.stand));
             let ((), times) = recorder.finish(&[], |_| ())?;
             let camera_part = Part::new(&camera);
+            let sunlight = direct_normal(scene, &tables.stand);
             Ok((
                 Prepared {
                     tables,
@@ -146,6 +149,7 @@ impl Engine {
                     camera_part,
                     sky_view,
                     exposure,
+                    sunlight,
                 },
                 times,
             ))
@@ -172,8 +176,13 @@ impl Engine {
             if buffers.holds.take() != Some(made_from) {
                 self.sky.run(&mut recorder, inputs, tile, &buffers.radiance);
             }
-            let (settings, known_ev) =
-                ToneUniform::new(&order.scene, &frame.camera, &frame.tables.stand, tile);
+            let (settings, known_ev) = ToneUniform::new(
+                &order.scene,
+                &frame.camera,
+                &frame.tables.stand,
+                tile,
+                frame.sunlight,
+            );
             let (source, size) = match order.output {
                 Output::Linear => (&buffers.radiance, RADIANCE_BYTES * pixels),
                 Output::Display => {
@@ -181,6 +190,7 @@ impl Engine {
                         &mut recorder,
                         &settings,
                         &frame.exposure,
+                        &frame.camera_part,
                         &buffers.radiance,
                         &buffers.picture,
                     );
@@ -253,15 +263,4 @@ pub(crate) fn facts(scene: &Scene, ev100: Option<f64>) -> FrameFacts {
         sun_irradiance_w_m2: irradiance,
         ev100,
     }
-}
-
-/// Irradiance from the sun at the observer on a plane that faces it.
-pub(crate) fn direct_normal(scene: &Scene, stand: &Standpoint) -> [f64; 3] {
-    let vacuum = Atmosphere {
-        density_factor: 0.0,
-        ..Atmosphere::default()
-    };
-    let air = scene.atmosphere.as_ref().unwrap_or(&vacuum);
-    let left = transmittance_to_space(&scene.planet, air, stand.altitude_m, stand.up.dot(stand.sun));
-    [0, 1, 2].map(|i| scene.sun.irradiance_w_m2[i] * left[i])
 }

@@ -19,6 +19,7 @@ mod quadrature;
 mod renderer;
 mod screen;
 mod shader;
+mod sunlight;
 mod uniforms;
 
 pub use error::Error;

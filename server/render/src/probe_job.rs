@@ -1,10 +1,11 @@
 //! The numbers behind the picture.
 
 use crate::{
-    engine::{Engine, direct_normal},
+    engine::Engine,
     error::Error,
     passes::probe::Sight,
     quadrature::{harmonics, sphere},
+    sunlight::direct_normal,
     uniforms::Standpoint,
 };
 use glam::DVec3;

@@ -206,7 +206,10 @@ pub(crate) struct ToneUniform {
     pub(crate) white_b: Vec3,
     pub(crate) dither: u32,
     pub(crate) gain: Vec3,
-    pub(crate) pad: f32,
+    pub(crate) glare: f32,
+    pub(crate) sun_irradiance: Vec3,
+    pub(crate) sun_angular_radius: f32,
+    pub(crate) sun: Vec3,
     pub(crate) origin_px: UVec2,
     pub(crate) size_px: UVec2,
 }
@@ -223,6 +226,7 @@ impl ToneUniform {
         camera: &CameraUniform,
         stand: &Standpoint,
         tile: TileUniform,
+        sunlight: [f64; 3],
     ) -> (Self, Option<f64>) {
         let display = &scene.display;
         let (gain, ev) = match display.exposure {
@@ -251,7 +255,14 @@ impl ToneUniform {
             white_b: narrow3(white[2]),
             dither: u32::from(display.dither),
             gain: narrow3(gain),
-            pad: 0.0,
+            glare: if scene.sun.disc {
+                narrow(display.glare)
+            } else {
+                0.0
+            },
+            sun_irradiance: narrow3(sunlight),
+            sun_angular_radius: narrow((scene.sun.angular_diameter_deg / 2.0).to_radians()),
+            sun: stand.sun.as_vec3(),
             origin_px: tile.origin_px,
             size_px: tile.size_px,
         };

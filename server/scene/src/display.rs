@@ -14,6 +14,9 @@ pub struct Display {
     /// Colour temperature of the light that shall look white, kelvin. 6500 leaves colours as they are.
     #[schemars(range(min = 1667.0, max = 25_000.0))]
     pub white_balance_k: f64,
+    /// Veil of light that the lens spreads about the sun: 0 none, 1 a clean lens.
+    #[schemars(range(min = 0.0, max = 10.0))]
+    pub glare: f64,
     /// Hide the steps of 8-bit colour under noise of one step.
     pub dither: bool,
 }
@@ -24,6 +27,7 @@ impl Default for Display {
             exposure: Exposure::Auto { compensation_ev: 0.0 },
             tone_curve: ToneCurve::Agx,
             white_balance_k: 6_500.0,
+            glare: 1.0,
             dither: true,
         }
     }

@@ -66,6 +66,11 @@ static PRESETS: LazyLock<[Preset; 5]> = LazyLock::new(|| {
             scene: Scene {
                 camera: looking(290.0, 14.0),
                 sun: sun(290.0, -4.0),
+                // As a photographer would set it for the blue hour.
+                display: Display {
+                    white_balance_k: 4500.0,
+                    ..Display::default()
+                },
                 ..Scene::default()
             },
         },

@@ -51,7 +51,7 @@ pub(crate) fn transmittance_to_space(
     let mut tau = [0.0; 3];
     let mut add = |from: f64, to: f64| {
         // Midpoints of steps that grow with the square from the lower end.
-        const STEPS: u32 = 2000;
+        const STEPS: u32 = 256;
         let at = |j: f64| from + (j / f64::from(STEPS)).powi(2) * (to - from);
         for k in 0..STEPS {
             let s = at(f64::from(k) + 0.5);

@@ -24,13 +24,16 @@ impl Tone {
         recorder: &mut Recorder<'_>,
         settings: &ToneUniform,
         exposure: &wgpu::Buffer,
+        camera: &Part,
         radiance: &wgpu::Buffer,
         picture: &wgpu::Buffer,
     ) {
         let uniform = Part::new(settings).upload(recorder.gpu, "tone");
+        let camera = camera.upload(recorder.gpu, "camera");
         let binds = [
             Bind::Buffer(&uniform),
             Bind::Buffer(exposure),
+            Bind::Buffer(&camera),
             Bind::Buffer(radiance),
             Bind::Buffer(picture),
         ];
