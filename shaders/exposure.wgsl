@@ -61,7 +61,7 @@ fn exposure(@builtin(local_invocation_index) thread: u32) {
         let log_luminance = luminance_at(i);
         let seen = 1.0 - smoothstep(DARK_FROM_EV, DARK_TO_EV, brightest - log_luminance);
         // Centre-weighted.
-        let weight = radiance[i].a * seen * exp(-4.0 * dot(at, at));
+        let weight = select(0.0, seen, radiance[i].a > 0.0) * exp(-4.0 * dot(at, at));
         sum += weight * vec3f(log_luminance, 1.0, 0.0);
     }
     partial[thread] = sum;

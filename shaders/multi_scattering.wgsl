@@ -16,9 +16,11 @@ import package::lib::scattering::{AirRay, scatter_along};
 import package::lib::tables::{multi_scattering_point, sun_cosine_unit, texel_to_unit, unit_to_coordinate};
 import package::lib::transmittance::transmittance_to_space;
 
+// True for the light that the sun sends. A variant of its own: neither has to pay for the other's work, as a software
+// device runs both sides of every branch.
+override FIRST: bool = true;
+
 struct Order {
-    // 1 for the light that the sun sends.
-    index: u32,
     // 1 where the sums shall be written rather than this order.
     last: u32,
     steps: u32,
@@ -35,13 +37,13 @@ struct Order {
 // For each texel: the sums of the orders, then the last order; six moments and the irradiance in each.
 @group(0) @binding(8) var<storage, read_write> sums: array<vec4f>;
 
-// Directions: eight Gauss-Legendre nodes x on either side of the horizon, bent towards it by mu = mu_h ± Δ x², times
-// eight azimuths on one side of the sun (the other side is its mirror image).
-const POLAR = 8u;
-const AZIMUTHS = 8u;
-const THREADS = 32u;
-const NODES = array<f32, 8>(0.0198550718, 0.1016667613, 0.2372337950, 0.4082826788, 0.5917173212, 0.7627662050, 0.8983332387, 0.9801449282);
-const WEIGHTS = array<f32, 8>(0.0506142681, 0.1111905172, 0.1568533229, 0.1813418917, 0.1813418917, 0.1568533229, 0.1111905172, 0.0506142681);
+// Directions: six Gauss-Legendre nodes x on either side of the horizon, bent towards it by mu = mu_h ± Δ x², times
+// six azimuths on one side of the sun (the other side is its mirror image).
+const POLAR = 6u;
+const AZIMUTHS = 6u;
+const THREADS = 24u;
+const NODES = array<f32, 6>(0.0337652429, 0.1693953068, 0.3806904070, 0.6193095930, 0.8306046932, 0.9662347571);
+const WEIGHTS = array<f32, 6>(0.0856622462, 0.1803807865, 0.2339569673, 0.2339569673, 0.1803807865, 0.0856622462);
 
 // Light from one direction or several: the moments, and the irradiance on the ground in the last place.
 const VALUES = 7u;
@@ -54,7 +56,7 @@ struct Share {
     mie_norm: f32,
 }
 
-var<workgroup> shares: array<Share, 32>;
+var<workgroup> shares: array<Share, 24>;
 
 fn add_direction(share: ptr<function, Share>, h: f32, mu_s: f32, mu: f32, azimuth: f32, weight: f32) {
     let sin_view = sqrt(max(1.0 - mu * mu, 0.0));
@@ -63,24 +65,23 @@ fn add_direction(share: ptr<function, Share>, h: f32, mu_s: f32, mu: f32, azimut
     let to_ground = distance_to_sphere(air.radius_m, h, mu);
     let ground = to_ground >= 0.0;
     let length_m = select(distance_to_top(air.radius_m, air.top_m, h, mu), to_ground, ground);
-    let first = order.index == 1u;
     let ray = AirRay(h, mu, mu_s, nu, length_m);
-    let scattered = scatter_along(air, ray, transmittance_table, moments_before, linear_clamp, order.steps, first);
+    let scattered = scatter_along(air, ray, transmittance_table, moments_before, linear_clamp, order.steps, FIRST, !FIRST);
     var radiance = scattered.multiple;
-    if first {
+    if FIRST {
         radiance = rayleigh_phase(nu) * scattered.rayleigh;
     }
     if ground {
         let mu_s_ground = cosine_after(air.radius_m, h, 0.0, mu_s, nu, length_m);
         let x = unit_to_coordinate(sun_cosine_unit(mu_s_ground), textureDimensions(irradiance_before).x);
         var lit = textureSampleLevel(irradiance_before, linear_clamp, vec2f(x, 0.5), 0.0).rgb;
-        if first {
+        if FIRST {
             lit = max(mu_s_ground, 0.0) * transmittance_to_space(air, transmittance_table, linear_clamp, 0.0, mu_s_ground);
         }
         radiance += exp(-scattered.optical_depth) * air.ground_albedo / PI * lit;
     }
     var mie = vec3f(0.0);
-    if first {
+    if FIRST {
         let phase = cornette_shanks_phase(nu, air.mie_asymmetry);
         mie = phase * scattered.mie;
         (*share).mie_norm += phase * weight;
@@ -93,7 +94,7 @@ fn add_direction(share: ptr<function, Share>, h: f32, mu_s: f32, mu: f32, azimut
     }
 }
 
-@compute @workgroup_size(32)
+@compute @workgroup_size(24)
 fn multi_scattering(@builtin(workgroup_id) texel: vec3u, @builtin(local_invocation_index) thread: u32) {
     let size = textureDimensions(moments);
     let p = multi_scattering_point(air.top_m, vec2f(texel_to_unit(texel.x, size.x), texel_to_unit(texel.y, size.y)));
@@ -125,7 +126,7 @@ fn multi_scattering(@builtin(workgroup_id) texel: vec3u, @builtin(local_invocati
         mie += shares[i].mie[thread];
         mie_norm += shares[i].mie_norm;
     }
-    if order.index == 1u {
+    if FIRST {
         light += mie / max(mie_norm, 1e-6);
     }
     let total = with_orders_before(2u * VALUES * (texel.y * size.x + texel.x) + thread, light);
@@ -138,7 +139,7 @@ fn multi_scattering(@builtin(workgroup_id) texel: vec3u, @builtin(local_invocati
 
 // Adds this order to its cell; gives what the next reader needs: this order, or after the last the sum of all.
 fn with_orders_before(cell: u32, light: vec3f) -> vec3f {
-    if order.index == 1u {
+    if FIRST {
         sums[cell] = vec4f(0.0);
     }
     let before = sums[cell + VALUES].rgb;

@@ -36,7 +36,7 @@ fn probe(@builtin(global_invocation_id) id: vec3u) {
     let entry = enter_air(air, observer, mu, nu, ground, ground_m);
     var light: Scattered;
     if entry.length_m > 0.0 {
-        light = scatter_along(air, entry, transmittance_table, multi_scattering_table, linear_clamp, observer.steps, true);
+        light = scatter_along(air, entry, transmittance_table, multi_scattering_table, linear_clamp, observer.steps, true, true);
     }
     var behind = directions[id.x].w * sun_disc(view, direction, 0.0);
     if ground {

@@ -1,7 +1,7 @@
 // Radiance of every pixel of one tile of the picture.
 import package::lib::air::Air;
 import package::lib::camera::{Camera, sight_at};
-import package::lib::geometry::{distance_to_sphere, edge_zenith_angle, horizon_distance_squared};
+import package::lib::geometry::{angle_between, distance_to_sphere, edge_zenith_angle, horizon_distance_squared};
 import package::lib::light::{View, ground_radiance, scattered_radiance, sun_disc};
 import package::lib::scattering::Scattered;
 import package::lib::tables::{SkyViewRay, sky_view_coordinate, least_zenith_angle};
@@ -19,7 +19,7 @@ struct Tile {
 @group(0) @binding(5) var linear_clamp: sampler;
 @group(0) @binding(6) var irradiance_table: texture_2d<f32>;
 @group(0) @binding(7) var sky_view_table: texture_2d_array<f32>;
-// R, G, B in W/m²/sr; alpha is 0 where the projection sees nothing.
+// R, G, B in W/m²/sr; alpha is 0 where the projection sees nothing, else one more than the angle from the sun.
 @group(0) @binding(8) var<storage, read_write> radiance: array<vec4f>;
 
 fn light_in_air(ray: SkyViewRay) -> Scattered {
@@ -32,7 +32,7 @@ fn light_in_air(ray: SkyViewRay) -> Scattered {
 
 fn radiance_towards(direction: vec3f) -> vec3f {
     let mu = dot(direction, view.up);
-    let zenith_angle = atan2(length(cross(direction, view.up)), mu);
+    let zenith_angle = angle_between(direction, view.up);
     let nu = clamp(dot(direction, view.sun), -1.0, 1.0);
     // Azimuth from the sun, by the parts across the zenith.
     let across = direction - mu * view.up;
@@ -72,7 +72,8 @@ fn sky(@builtin(global_invocation_id) id: vec3u) {
     let sight = sight_at(camera, vec2f(tile.origin_px + id.xy) + 0.5);
     var value = vec4f(0.0);
     if sight.seen {
-        value = vec4f(radiance_towards(sight.direction), 1.0);
+        let off_sun = angle_between(sight.direction, view.sun);
+        value = vec4f(radiance_towards(sight.direction), 1.0 + off_sun);
     }
     radiance[id.y * tile.size_px.x + id.x] = value;
 }

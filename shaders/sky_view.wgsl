@@ -26,7 +26,7 @@ fn sky_view(@builtin(global_invocation_id) id: vec3u) {
     let entry = enter_air(air, observer, mu, clamp(nu, -1.0, 1.0), ray.ground, ray.distance_m);
     var light: Scattered;
     if entry.length_m > 0.0 {
-        light = scatter_along(air, entry, transmittance_table, multi_scattering_table, linear_clamp, observer.steps, true);
+        light = scatter_along(air, entry, transmittance_table, multi_scattering_table, linear_clamp, observer.steps, true, true);
     }
     textureStore(table, id.xy, 0, vec4f(light.rayleigh, light.optical_depth.r));
     textureStore(table, id.xy, 1, vec4f(light.mie, light.optical_depth.g));

@@ -1,25 +1,24 @@
 // From radiance to the picture: the lens' glare, exposure, white balance, tone curve, sRGB, dither.
-import package::lib::camera::{Camera, sight_at};
 import package::lib::colour::{LUMINANCE_PER_RADIANCE, aces, agx, exponential, reinhard, srgb_encode};
+
+// 0 reinhard, 1 exponential, 2 aces, 3 agx. A variant each, so that no device computes all four.
+override CURVE: u32 = 3u;
 
 struct Tone {
     // White balance, rows of a 3×3 matrix on linear Rec. 709.
     white_r: vec3f,
-    // 0 reinhard, 1 exponential, 2 aces, 3 agx.
-    curve: u32,
+    // 1 to dither.
+    dither: u32,
     white_g: vec3f,
     // 1 where the meter's exposure counts.
     metered: u32,
     white_b: vec3f,
-    // 1 to dither.
-    dither: u32,
+    sun_angular_radius: f32,
     // Multiplies radiance where nothing is metered.
     gain: vec3f,
     glare: f32,
-    // Irradiance of the visible disc at the observer, and where it stands.
+    // Irradiance of the visible disc at the observer.
     sun_irradiance: vec3f,
-    sun_angular_radius: f32,
-    sun: vec3f,
     origin_px: vec2u,
     size_px: vec2u,
 }
@@ -31,10 +30,10 @@ struct Exposure {
 
 @group(0) @binding(0) var<uniform> tone_settings: Tone;
 @group(0) @binding(1) var<storage, read> exposure: Exposure;
-@group(0) @binding(2) var<uniform> camera: Camera;
-@group(0) @binding(3) var<storage, read> radiance: array<vec4f>;
+// Alpha is 0 where the projection sees nothing, else one more than the angle from the sun.
+@group(0) @binding(2) var<storage, read> radiance: array<vec4f>;
 // R, G, B, A bytes, from the least significant.
-@group(0) @binding(4) var<storage, read_write> picture: array<u32>;
+@group(0) @binding(3) var<storage, read_write> picture: array<u32>;
 
 // A hash of the pixel's place in the whole frame (PCG, O'Neill 2014), so that tiles leave no seam.
 fn hash(v: vec3u) -> vec3u {
@@ -61,9 +60,7 @@ fn dither_noise(pixel: vec2u) -> vec3f {
 const LENS_VEIL = 0.35;
 const VEIL_STEEPENS_DEG = 2.5;
 
-fn lens_glare(pixel: vec2f) -> vec3f {
-    let direction = sight_at(camera, pixel).direction;
-    let angle = atan2(length(cross(direction, tone_settings.sun)), dot(direction, tone_settings.sun));
+fn lens_glare(angle: f32) -> vec3f {
     let off_deg = degrees(max(angle, tone_settings.sun_angular_radius));
     let veil = LENS_VEIL / (max(off_deg * off_deg, 0.01) * (1.0 + off_deg / VEIL_STEEPENS_DEG));
     return tone_settings.glare * veil * tone_settings.sun_irradiance;
@@ -76,21 +73,19 @@ fn tone(@builtin(global_invocation_id) id: vec3u) {
     }
     let i = id.y * tone_settings.size_px.x + id.x;
     let gain = select(tone_settings.gain, LUMINANCE_PER_RADIANCE * exposure.scale, tone_settings.metered == 1u);
-    var seen = radiance[i].rgb;
-    if tone_settings.glare > 0.0 && radiance[i].a > 0.0 {
-        seen += lens_glare(vec2f(tone_settings.origin_px + id.xy) + 0.5);
-    }
-    let exposed = gain * seen;
+    let pixel = radiance[i];
+    let seen = pixel.a > 0.0;
+    let exposed = gain * (pixel.rgb + select(vec3f(0.0), lens_glare(pixel.a - 1.0), seen));
     let balanced = max(vec3f(dot(tone_settings.white_r, exposed), dot(tone_settings.white_g, exposed), dot(tone_settings.white_b, exposed)), vec3f(0.0));
     var shown: vec3f;
-    switch tone_settings.curve {
+    switch CURVE {
         case 0u: { shown = reinhard(balanced); }
         case 1u: { shown = exponential(balanced); }
         case 2u: { shown = aces(balanced); }
         default: { shown = agx(balanced); }
     }
     var bytes = 255.0 * srgb_encode(shown);
-    if tone_settings.dither == 1u && radiance[i].a > 0.0 {
+    if tone_settings.dither == 1u && seen {
         bytes += dither_noise(tone_settings.origin_px + id.xy);
     }
     picture[i] = pack4x8unorm(vec4f(bytes / 255.0, 1.0));

@@ -54,6 +54,11 @@ fn edge_zenith_angle(radius_m: f32, altitude_m: f32) -> f32 {
     return 0.5 * PI + atan(sqrt(horizon_distance_squared(radius_m, altitude_m)) / radius_m);
 }
 
+// Of unit vectors; exact for small angles, where acos of the dot product is not.
+fn angle_between(a: vec3f, b: vec3f) -> f32 {
+    return atan2(length(cross(a, b)), dot(a, b));
+}
+
 // The stretch of a ray that lies in the planet's shadow, empty where x ≥ y. Parallel light: the shadow is the half
 // of the cylinder of radius R about the sun's axis that lies behind the planet. Points of the ray have
 // |p|² - R² - (p·s)² = a t² + 2 b t + c with a = 1 - nu², b = r (mu - mu_s nu), c = h(2R+h) - (r mu_s)².

@@ -1,6 +1,6 @@
 // What the observer sees in one direction, given the light in the air on the way.
 import package::lib::air::Air;
-import package::lib::geometry::{PI, cosine_after};
+import package::lib::geometry::{PI, angle_between, cosine_after};
 import package::lib::phase::{rayleigh_phase, cornette_shanks_phase};
 import package::lib::scattering::Scattered;
 import package::lib::tables::{sun_cosine_unit, unit_to_coordinate};
@@ -34,7 +34,7 @@ fn sun_disc(view: View, direction: vec3f, pixel_angle: f32) -> vec3f {
     if view.disc == 0.0 || alpha <= 0.0 {
         return vec3f(0.0);
     }
-    let angle = atan2(length(cross(direction, view.sun)), dot(direction, view.sun));
+    let angle = angle_between(direction, view.sun);
     let cover = clamp(0.5 + (alpha - angle) / max(pixel_angle, 1e-9), 0.0, 1.0);
     if cover <= 0.0 {
         return vec3f(0.0);

@@ -26,7 +26,8 @@ struct Scattered {
 // ∫ T σ_s S dt. The ray is cut at its lowest point and where the planet's shadow begins and ends, so that density,
 // and light or dark, run evenly through each piece; steps grow with the square from the piece's lower end, where the
 // air is densest. Within a step the source is constant and its own attenuation exact (Hillaire 2015):
-// ∫ S e^{-σt} dt = S (1 - e^{-σΔt}) / σ. `with_sun` false leaves the first order out.
+// ∫ S e^{-σt} dt = S (1 - e^{-σΔt}) / σ. `with_sun` false leaves the first order out,
+// `with_moments` false the others.
 fn scatter_along(
     air: Air,
     ray: AirRay,
@@ -35,6 +36,7 @@ fn scatter_along(
     linear_clamp: sampler,
     steps: u32,
     with_sun: bool,
+    with_moments: bool,
 ) -> Scattered {
     var sum: Scattered;
     let lowest = clamp(-(air.radius_m + ray.altitude_m) * ray.mu, 0.0, ray.length_m);
@@ -83,8 +85,10 @@ fn scatter_along(
                 sum.rayleigh += weight * c.rayleigh_per_m * sun;
                 sum.mie += weight * c.mie_per_m * sun;
             }
-            let mu = cosine_after(air.radius_m, ray.altitude_m, h, ray.mu, 1.0, t);
-            sum.multiple += weight * source_per_m(air, c, multiple_table, linear_clamp, h, mu, mu_s, ray.nu);
+            if with_moments {
+                let mu = cosine_after(air.radius_m, ray.altitude_m, h, ray.mu, 1.0, t);
+                sum.multiple += weight * source_per_m(air, c, multiple_table, linear_clamp, h, mu, mu_s, ray.nu);
+            }
             sum.optical_depth += tau;
         }
     }

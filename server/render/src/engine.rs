@@ -36,6 +36,7 @@ pub(crate) struct Engine {
     tone: Tone,
     probe: Probe,
     screen: Screen,
+    pub(crate) generation: u64,
     pub(crate) gpu: Gpu,
 }
 
@@ -57,10 +58,13 @@ pub(crate) struct Prepared {
     exposure: Arc<wgpu::Buffer>,
     /// Irradiance of the visible disc, W/m².
     sunlight: [f64; 3],
+    /// The device that holds it.
+    pub(crate) generation: u64,
 }
 
 impl Engine {
-    pub(crate) fn open(choice: &AdapterChoice) -> Result<Self, Error> {
+    /// `generation` tells this device from those before it.
+    pub(crate) fn open(choice: &AdapterChoice, generation: u64) -> Result<Self, Error> {
         let gpu = Gpu::open(choice)?;
         let passes = gpu.guarded(|| {
             Ok((
@@ -69,7 +73,7 @@ impl Engine {
                 SkyView::new(&gpu),
                 Sky::new(&gpu),
                 ExposurePass::new(&gpu),
-                Tone::new(&gpu),
+                Tone::default(),
                 Probe::new(&gpu),
             ))
         })?;
@@ -83,6 +87,7 @@ impl Engine {
             tone,
             probe,
             screen: Screen::default(),
+            generation,
             gpu,
         })
     }
@@ -150,6 +155,7 @@ impl Engine {
                     sky_view,
                     exposure,
                     sunlight,
+                    generation: self.generation,
                 },
                 times,
             ))
@@ -188,9 +194,9 @@ impl Engine {
                 Output::Display => {
                     self.tone.run(
                         &mut recorder,
+                        order.scene.display.tone_curve,
                         &settings,
                         &frame.exposure,
-                        &frame.camera_part,
                         &buffers.radiance,
                         &buffers.picture,
                     );

@@ -87,6 +87,14 @@ impl FrameJob {
         engine: &mut Engine,
         budget: &mut TileBudget,
     ) -> Result<Option<Arc<Frame>>, Error> {
+        if self
+            .prepared
+            .as_ref()
+            .is_some_and(|p| p.generation != engine.generation)
+        {
+            // The device that held the tables is gone.
+            *self = Self::new(self.order.clone());
+        }
         let Some(prepared) = &self.prepared else {
             let (prepared, times) = engine.prepare(&self.order)?;
             add_times(&mut self.passes, times);

@@ -59,6 +59,11 @@ fn layout_entry(binding: u32, kind: Kind, table_format: wgpu::TextureFormat) -> 
 
 impl Kernel {
     pub(crate) fn new(gpu: &Gpu, shader: &'static Shader) -> Self {
+        Self::variant(gpu, shader, &[])
+    }
+
+    /// With values for the shader's `override` constants.
+    pub(crate) fn variant(gpu: &Gpu, shader: &'static Shader, constants: &[(&str, f64)]) -> Self {
         let entries: Vec<_> = (0_u32..)
             .zip(shader.bindings)
             .map(|(at, kind)| layout_entry(at, *kind, gpu.table_format))
@@ -93,7 +98,10 @@ impl Kernel {
                 layout: Some(&pipeline_layout),
                 module: &module,
                 entry_point: Some(shader.name),
-                compilation_options: wgpu::PipelineCompilationOptions::default(),
+                compilation_options: wgpu::PipelineCompilationOptions {
+                    constants,
+                    ..wgpu::PipelineCompilationOptions::default()
+                },
                 cache: None,
             });
         Self {

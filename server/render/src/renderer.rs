@@ -112,7 +112,7 @@ impl Renderer {
         let (opened, first) = mpsc::channel();
         let places = settings.queue_places.max(1);
         thread::Builder::new().name("renderer".into()).spawn(move || {
-            let engine = match Engine::open(&settings.adapter) {
+            let engine = match Engine::open(&settings.adapter, 0) {
                 Ok(engine) => engine,
                 Err(error) => return drop(opened.send(Err(error))),
             };
@@ -180,6 +180,11 @@ impl Renderer {
 }
 
 impl Shared {
+    fn learn(&self, ms: f64) {
+        let mut mean_ms = self.mean_ms.lock().unwrap_or_else(PoisonError::into_inner);
+        *mean_ms += 0.1 * (ms - *mean_ms);
+    }
+
     /// When the orders that wait will be done, seconds.
     fn retry_after_s(&self) -> u32 {
         let mean_ms = *self.mean_ms.lock().unwrap_or_else(PoisonError::into_inner);
@@ -224,9 +229,22 @@ impl Render for Renderer {
     }
 }
 
+/// An order on the thread.
+struct Task {
+    work: Work,
+    /// Times that the device failed under it.
+    failures: u32,
+    /// When its work began.
+    begun: Option<Instant>,
+}
+
+/// An order is tried again once after the device failed under it; a second failure is its own.
+const MOST_FAILURES: u32 = 2;
+
 /// What lives on the thread.
 struct Worker {
     adapter: AdapterChoice,
+    /// None after a failure, until the next order opens it anew.
     engine: Option<Engine>,
     shared: Arc<Shared>,
     budget: TileBudget,
@@ -247,94 +265,95 @@ impl Worker {
     /// Serves orders until the last renderer is dropped. One piece of work at a time, then the queue is looked at
     /// again: interactive orders first, each of the same priority in turn.
     fn run(mut self, orders: &mpsc::Receiver<Work>) {
-        let mut waiting: VecDeque<Work> = VecDeque::new();
+        let mut waiting: VecDeque<Task> = VecDeque::new();
+        let task = |work| Task {
+            work,
+            failures: 0,
+            begun: None,
+        };
         loop {
             if waiting.is_empty() {
                 match orders.recv() {
-                    Ok(work) => waiting.push_back(work),
+                    Ok(work) => waiting.push_back(task(work)),
                     Err(mpsc::RecvError) => return,
                 }
             }
-            waiting.extend(orders.try_iter());
-            let highest = waiting.iter().map(Work::priority).max();
-            let Some(at) = waiting.iter().position(|w| Some(w.priority()) == highest) else {
+            waiting.extend(orders.try_iter().map(task));
+            let highest = waiting.iter().map(|t| t.work.priority()).max();
+            let Some(at) = waiting.iter().position(|t| Some(t.work.priority()) == highest) else {
                 continue;
             };
-            let Some(work) = waiting.remove(at) else { continue };
-            if work.abandoned() {
-                work.refuse(RenderError::Stopped);
-            } else if let Some(unfinished) = self.step(work) {
+            let Some(task) = waiting.remove(at) else { continue };
+            if task.work.abandoned() {
+                task.work.refuse(RenderError::Stopped);
+            } else if let Some(unfinished) = self.step(task) {
                 waiting.push_back(unfinished);
             }
         }
     }
 
     /// One piece of work; the order again if there is more to do.
-    fn step(&mut self, work: Work) -> Option<Work> {
-        let begun = Instant::now();
+    fn step(&mut self, mut task: Task) -> Option<Task> {
+        let begun = *task.begun.get_or_insert_with(Instant::now);
+        match self.advance(task.work) {
+            Ok(Some(work)) => return Some(Task { work, ..task }),
+            Ok(None) => self.shared.learn(begun.elapsed().as_secs_f64() * 1e3),
+            Err((work, error)) => {
+                tracing::error!(%error, "the device failed; it is opened anew");
+                self.engine = None;
+                task.failures += 1;
+                if task.failures < MOST_FAILURES {
+                    return Some(Task { work, ..task });
+                }
+                work.refuse(RenderError::Device(error.to_string()));
+            }
+        }
+        None
+    }
+
+    /// The order again if there is more to do; the order and the reason if the device failed.
+    fn advance(&mut self, work: Work) -> Result<Option<Work>, (Work, Error)> {
+        let engine = match open(&mut self.engine, &self.adapter, &self.shared) {
+            Ok(engine) => engine,
+            Err(error) => return Err((work, error)),
+        };
         match work {
             Work::Frame(mut job, answer) => {
                 if let Some(frame) = self.kept.find(job.order()) {
                     answer.send(Ok(frame));
-                    return None;
+                    return Ok(None);
                 }
-                let budget = &mut self.budget;
-                match retried(&mut self.engine, &self.adapter, &self.shared, |engine| {
-                    job.step(engine, budget)
-                        .inspect_err(|_| job = FrameJob::new(job.order().clone()))
-                }) {
-                    Ok(None) => return Some(Work::Frame(job, answer)),
+                match job.step(engine, &mut self.budget) {
+                    Ok(None) => return Ok(Some(Work::Frame(job, answer))),
                     Ok(Some(frame)) => {
                         self.kept.keep(job.order().clone(), &frame);
                         answer.send(Ok(frame));
                     }
-                    Err(error) => answer.send(Err(error)),
+                    Err(error) => return Err((Work::Frame(job, answer), error)),
                 }
             }
-            Work::Probe(request, answer) => {
-                let result = retried(&mut self.engine, &self.adapter, &self.shared, |engine| {
-                    probe_job::answer(engine, &request)
-                });
-                answer.send(result);
-            }
+            Work::Probe(request, answer) => match probe_job::answer(engine, &request) {
+                Ok(result) => answer.send(Ok(result)),
+                Err(error) => return Err((Work::Probe(request, answer), error)),
+            },
         }
-        let mut mean_ms = self.shared.mean_ms.lock().unwrap_or_else(PoisonError::into_inner);
-        *mean_ms += 0.1 * (begun.elapsed().as_secs_f64() * 1e3 - *mean_ms);
-        None
+        Ok(None)
     }
 }
 
-/// Runs `work`; after a failure opens the device anew and runs it once more.
-fn retried<T>(
-    engine: &mut Option<Engine>,
+/// The engine, opened anew where it was lost.
+fn open<'a>(
+    engine: &'a mut Option<Engine>,
     adapter: &AdapterChoice,
     shared: &Shared,
-    mut work: impl FnMut(&mut Engine) -> Result<T, Error>,
-) -> Result<T, RenderError> {
-    let mut last = String::new();
-    for _ in 0..2 {
-        if engine.is_none() {
-            match Engine::open(adapter) {
-                Ok(opened) => {
-                    *engine = Some(opened);
-                    let mut device = shared.device.lock().unwrap_or_else(PoisonError::into_inner);
-                    device.recoveries += 1;
-                }
-                Err(error) => {
-                    last = error.to_string();
-                    continue;
-                }
-            }
+) -> Result<&'a mut Engine, Error> {
+    let open = match engine.take() {
+        Some(open) => open,
+        None => {
+            let mut device = shared.device.lock().unwrap_or_else(PoisonError::into_inner);
+            device.recoveries += 1;
+            Engine::open(adapter, device.recoveries)?
         }
-        let Some(open) = engine.as_mut() else { continue };
-        match work(open) {
-            Ok(done) => return Ok(done),
-            Err(error) => {
-                tracing::error!(%error, "the device failed; it is opened anew");
-                last = error.to_string();
-                *engine = None;
-            }
-        }
-    }
-    Err(RenderError::Device(last))
+    };
+    Ok(engine.insert(open))
 }

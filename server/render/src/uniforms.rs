@@ -3,7 +3,7 @@
 use crate::{camera::CameraUniform, colour};
 use encase::{ShaderSize, ShaderType, internal::WriteInto};
 use glam::{DVec3, UVec2, Vec2, Vec3};
-use welkin_scene::{Atmosphere, Exposure, Orders, Planet, Scene, Sun, ToneCurve};
+use welkin_scene::{Atmosphere, Exposure, Orders, Planet, Scene, Sun};
 
 /// The bytes of one uniform: what a pass binds, and what its fingerprint is made of.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
@@ -184,7 +184,6 @@ pub(crate) struct TileUniform {
 /// `Order` of `multi_scattering.wgsl`.
 #[derive(Clone, Copy, Debug, ShaderType)]
 pub(crate) struct OrderUniform {
-    pub(crate) index: u32,
     pub(crate) last: u32,
     pub(crate) steps: u32,
 }
@@ -200,16 +199,14 @@ pub(crate) struct MeterUniform {
 #[derive(Clone, Debug, ShaderType)]
 pub(crate) struct ToneUniform {
     pub(crate) white_r: Vec3,
-    pub(crate) curve: u32,
+    pub(crate) dither: u32,
     pub(crate) white_g: Vec3,
     pub(crate) metered: u32,
     pub(crate) white_b: Vec3,
-    pub(crate) dither: u32,
+    pub(crate) sun_angular_radius: f32,
     pub(crate) gain: Vec3,
     pub(crate) glare: f32,
     pub(crate) sun_irradiance: Vec3,
-    pub(crate) sun_angular_radius: f32,
-    pub(crate) sun: Vec3,
     pub(crate) origin_px: UVec2,
     pub(crate) size_px: UVec2,
 }
@@ -244,12 +241,6 @@ impl ToneUniform {
         let white = colour::white_balance(display.white_balance_k);
         let tone = Self {
             white_r: narrow3(white[0]),
-            curve: match display.tone_curve {
-                ToneCurve::Reinhard => 0,
-                ToneCurve::Exponential => 1,
-                ToneCurve::Aces => 2,
-                ToneCurve::Agx => 3,
-            },
             white_g: narrow3(white[1]),
             metered: u32::from(matches!(display.exposure, Exposure::Auto { .. })),
             white_b: narrow3(white[2]),
@@ -262,7 +253,6 @@ impl ToneUniform {
             },
             sun_irradiance: narrow3(sunlight),
             sun_angular_radius: narrow((scene.sun.angular_diameter_deg / 2.0).to_radians()),
-            sun: stand.sun.as_vec3(),
             origin_px: tile.origin_px,
             size_px: tile.size_px,
         };

@@ -12,7 +12,7 @@ use std::sync::Arc;
 use welkin_scene::Quality;
 
 /// Orders that are followed; the rest is a geometric series.
-const ORDERS: u32 = 5;
+const ORDERS: u32 = 4;
 
 /// Moments of the light about a point.
 const MOMENTS: u32 = 6;
@@ -24,22 +24,25 @@ pub(crate) struct MultiScattering {
 }
 
 pub(crate) struct MultiScatteringPass {
-    kernel: Kernel,
+    first: Kernel,
+    later: Kernel,
     memo: Memo<MultiScattering>,
 }
 
 /// Sun cosines, heights, and steps along each ray.
 const fn size(quality: Quality) -> ([u32; 2], u32) {
     match quality {
-        Quality::Preview => ([32, 16], 12),
-        Quality::Final => ([64, 32], 20),
+        Quality::Preview => ([24, 12], 10),
+        Quality::Final => ([48, 24], 14),
     }
 }
 
 impl MultiScatteringPass {
     pub(crate) fn new(gpu: &Gpu) -> Self {
+        let variant = |first: f64| Kernel::variant(gpu, &shader::MULTI_SCATTERING, &[("FIRST", first)]);
         Self {
-            kernel: Kernel::new(gpu, &shader::MULTI_SCATTERING),
+            first: variant(1.0),
+            later: variant(0.0),
             memo: Memo::new(8),
         }
     }
@@ -80,7 +83,6 @@ impl MultiScatteringPass {
             let mut before = new_pair();
             for index in 1..=ORDERS {
                 let order = OrderUniform {
-                    index,
                     last: u32::from(index == ORDERS),
                     steps,
                 };
@@ -97,7 +99,8 @@ impl MultiScatteringPass {
                     Bind::Table(&after.1),
                     Bind::Buffer(&sums),
                 ];
-                recorder.dispatch_groups(&self.kernel, &binds, [width, height, 1]);
+                let kernel = if index == 1 { &self.first } else { &self.later };
+                recorder.dispatch_groups(kernel, &binds, [width, height, 1]);
                 before = after;
             }
             MultiScattering {

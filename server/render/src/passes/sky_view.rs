@@ -20,7 +20,7 @@ pub(crate) struct SkyView {
 const fn size(quality: Quality) -> ([u32; 2], u32) {
     match quality {
         Quality::Preview => ([32, 128], 32),
-        Quality::Final => ([64, 256], 64),
+        Quality::Final => ([48, 224], 48),
     }
 }
 
