@@ -37,7 +37,9 @@ export async function startServer() {
     child.on('error', (error) => (log += error.message));
     for (const stream of [child.stdout, child.stderr]) stream?.on('data', (data) => (log += data));
     for (const end = Date.now() + START_MS; !(await isReady(url)); await new Promise((r) => setTimeout(r, 100))) {
-      if (child.exitCode !== null || Date.now() > end) throw new Error(`${PROGRAM} does not serve:\n${log}`);
+      if (child.exitCode === null && Date.now() < end) continue;
+      child.kill('SIGKILL');
+      throw new Error(`${PROGRAM} does not serve:\n${log}`);
     }
   };
   /** @param {NodeJS.Signals} signal */

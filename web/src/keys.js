@@ -50,7 +50,7 @@ export function bindings({ sun, camera, preset, panel, bare, save, help }) {
 export function listenToKeys(table) {
   window.addEventListener('keydown', (event) => {
     const target = /** @type {Element} */ (event.target);
-    if (event.ctrlKey || event.metaKey || event.altKey || target.closest('input, select, textarea, dialog')) return;
+    if (event.ctrlKey || event.metaKey || event.altKey || target.closest('input, select, textarea, dialog[open]')) return;
     const key = event.key.length === 1 ? event.key.toLowerCase() : event.key;
     const binding = table.find(({ keys }) => keys.includes(key));
     if (!binding) return;
