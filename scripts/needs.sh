@@ -6,6 +6,7 @@ has_compiler() { have cc && have make; }
 has_pkg_config() { have pkg-config; }
 has_node() { have node; }
 has_npm() { have npm; }
+has_curl() { have curl; }
 # As the browser tests look for it.
 has_chromium() { [[ -x ${CHROMIUM:-/usr/bin/chromium} ]]; }
 
@@ -32,6 +33,7 @@ needs_of() {
   if [[ $1 == test ]]; then
     echo has_lavapipe mesa-vulkan-drivers
     echo has_chromium chromium
+    echo has_curl curl
     echo has_node nodejs
     echo has_npm npm
   else
@@ -41,6 +43,6 @@ needs_of() {
 
 words_of() {
   local words='a C compiler with make, pkg-config, the Vulkan loader and a Vulkan driver such as Mesa'\''s lavapipe'
-  [[ $1 == test ]] && words+=', Chromium (CHROMIUM holds its path), Node.js and npm'
+  [[ $1 == test ]] && words+=', Chromium (CHROMIUM holds its path), curl, Node.js and npm'
   echo "$words"
 }
