@@ -1,6 +1,7 @@
 //! The program `welkin`: wiring of renderer, encoders and service. The one file that sees both the renderer and
 //! the rest.
 
+mod bench;
 mod commands;
 mod settings;
 

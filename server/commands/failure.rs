@@ -38,12 +38,18 @@ pub(crate) enum Failure {
     /// The service could not be started.
     #[error(transparent)]
     Start(#[from] StartError),
+    /// A benchmark could not measure, or found a promise broken.
+    #[error("{0}")]
+    Bench(String),
     /// Ended from the keyboard.
     #[error("interrupted")]
     Interrupted,
 }
 
 impl Failure {
+    /// The exit code where there is no device.
+    pub(crate) const NO_DEVICE: u8 = 3;
+
     /// For `map_err`: what was done when the system refused.
     pub(crate) fn file(what: impl Into<String>) -> impl FnOnce(io::Error) -> Self {
         move |source| Self::File {
@@ -57,8 +63,8 @@ impl Failure {
         match self {
             Self::Usage(_) | Self::Settings(_) | Self::Scene(_) => 2,
             Self::Render(RenderError::Size { .. }) | Self::Encode(EncodeError::Extension { .. }) => 2,
-            Self::Device(_) => 3,
-            Self::Render(_) | Self::Encode(_) | Self::File { .. } | Self::Start(_) => 1,
+            Self::Device(_) => Self::NO_DEVICE,
+            Self::Render(_) | Self::Encode(_) | Self::File { .. } | Self::Start(_) | Self::Bench(_) => 1,
             // What shells give for an interrupt.
             Self::Interrupted => 130,
         }
@@ -86,6 +92,7 @@ impl Failure {
             Self::Encode(_) => "Not encoded",
             Self::File { .. } => "Not read or written",
             Self::Start(_) => "Not started",
+            Self::Bench(_) => "Not measured, or not as promised",
             Self::Interrupted => "Interrupted",
         };
         let mut problem = json!({"type": "about:blank", "title": title, "detail": self.to_string()});

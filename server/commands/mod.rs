@@ -1,5 +1,6 @@
 //! The command line.
 
+mod bench;
 mod devices;
 mod document;
 mod failure;
@@ -10,9 +11,11 @@ mod probe;
 mod render;
 mod schema;
 mod serve;
+mod version;
 mod waiting;
 
 pub(crate) use failure::Failure;
+pub(crate) use version::build;
 
 use clap::{Parser, Subcommand};
 use std::{path::PathBuf, process::ExitCode};
@@ -51,6 +54,8 @@ enum Command {
     Presets(presets::Args),
     /// List the devices of this machine
     Devices,
+    /// Measure what frames cost
+    Bench(bench::Args),
 }
 
 /// Runs what the command line says.
@@ -68,6 +73,7 @@ pub(crate) fn run() -> ExitCode {
         Command::Schema(args) => schema::run(&args),
         Command::Presets(args) => presets::run(&args, json),
         Command::Devices => devices::run(json),
+        Command::Bench(args) => bench::run(&args, config, json),
     };
     match done {
         Ok(()) => ExitCode::SUCCESS,

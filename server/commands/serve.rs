@@ -1,9 +1,8 @@
 //! `welkin serve`
 
-use super::{Failure, logging};
+use super::{Failure, logging, version::build};
 use crate::settings::{ServeFlags, Settings};
-use sha2::{Digest, Sha256};
-use std::{env, fs::File, io, path::Path};
+use std::{io, path::Path};
 use welkin_service::{Service, listen, serve};
 
 /// Arguments of `welkin serve`.
@@ -64,18 +63,4 @@ fn stopped() -> io::Result<impl Future<Output = ()>> {
             std::future::pending::<()>().await;
         }
     })
-}
-
-/// The version, and a fingerprint of the program itself: every change of shaders or code makes other entity tags.
-fn build() -> String {
-    let version = env!("CARGO_PKG_VERSION");
-    let fingerprint = || -> io::Result<String> {
-        let mut hash = Sha256::new();
-        io::copy(&mut File::open(env::current_exe()?)?, &mut hash)?;
-        Ok(hash.finalize()[..4]
-            .iter()
-            .map(|byte| format!("{byte:02x}"))
-            .collect())
-    };
-    fingerprint().map_or_else(|_| version.to_owned(), |print| format!("{version}+{print}"))
 }

@@ -1,0 +1,97 @@
+//! The programs beside which Welkin is measured, where they are there: a folder with `run.py`, which renders the
+//! published shaders that Welkin started from and prints what a frame of them costs.
+
+use super::Size;
+use serde::Deserialize;
+use std::{
+    path::PathBuf,
+    process::{Command, Output},
+};
+
+/// Where the baseline is, or why there is none.
+#[derive(Clone, Debug)]
+pub(super) enum Baseline {
+    /// The folder.
+    At(PathBuf),
+    /// It is not there or does not run.
+    Absent(String),
+}
+
+/// What `run.py` prints.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+pub(super) struct Measured {
+    /// Milliseconds on the clock, one frame.
+    pub(super) wall_ms: f64,
+    /// Milliseconds of all threads, one frame.
+    pub(super) cpu_ms: f64,
+    /// The driver that rendered.
+    pub(super) renderer: String,
+}
+
+impl Baseline {
+    pub(super) fn in_folder(folder: PathBuf) -> Self {
+        if folder.join("run.py").is_file() {
+            Self::At(folder)
+        } else {
+            Self::Absent(format!("there is no {}", folder.join("run.py").display()))
+        }
+    }
+
+    /// One frame of one case. Where it does not run, the baseline is absent from then on.
+    pub(super) fn measure(&mut self, case: &str, size: Size) -> Option<Measured> {
+        let Self::At(folder) = self else { return None };
+        // -B: the folder may be read-only, and is not ours.
+        let output = Command::new("python3")
+            .arg("-B")
+            .arg(folder.join("run.py"))
+            .args([case, "--frames", "1"])
+            .args(["--width-px", &size.width_px.to_string()])
+            .args(["--height-px", &size.height_px.to_string()])
+            .output();
+        let read = output
+            .map_err(|e| format!("python3: {e}"))
+            .and_then(|output| read(&output));
+        read.map_err(|reason| *self = Self::Absent(reason)).ok()
+    }
+}
+
+fn read(output: &Output) -> Result<Measured, String> {
+    if output.status.success() {
+        return serde_json::from_slice(&output.stdout).map_err(|e| format!("run.py: {e}"));
+    }
+    let told = String::from_utf8_lossy(&output.stderr);
+    let last = told.lines().last().unwrap_or_default();
+    Err(format!("run.py: {}: {last}", output.status))
+}
+
+#[cfg(all(test, unix))]
+mod tests {
+    #![allow(clippy::unwrap_used, reason = "tests fail by panicking")]
+
+    use super::*;
+    use std::{os::unix::process::ExitStatusExt, process::ExitStatus};
+
+    fn output(status: i32, stdout: &str, stderr: &str) -> Output {
+        Output {
+            // The exit code stands in the second byte of what `wait` gives.
+            status: ExitStatus::from_raw(status << 8),
+            stdout: stdout.into(),
+            stderr: stderr.into(),
+        }
+    }
+
+    #[test]
+    fn its_line_is_read_and_its_refusal_told() {
+        let line = r#"{"case": "horizon-sky", "width_px": 64, "wall_ms": 6.5, "cpu_ms": 7.5, "renderer": "llvmpipe"}"#;
+        let measured = read(&output(0, line, "")).unwrap();
+        assert_eq!((measured.wall_ms, measured.cpu_ms), (6.5, 7.5));
+        let refused = read(&output(
+            1,
+            "",
+            "Traceback\nModuleNotFoundError: No module named 'numpy'\n",
+        ));
+        let reason = refused.unwrap_err();
+        assert!(reason.ends_with("No module named 'numpy'"), "{reason}");
+        assert!(read(&output(0, "nothing of the kind", "")).is_err());
+    }
+}

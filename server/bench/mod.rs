@@ -1,0 +1,91 @@
+//! `welkin bench`: what frames cost. One file a case; the rest is common to all.
+//!
+//! Every measurement is made in a process of its own, so that peaks of memory do not mix and each begins with a fresh
+//! device. Processes of all setups, and the baseline, take turns; figures are medians over the rounds. Facts are
+//! checked (which passes ran), times never.
+
+mod baseline;
+mod process;
+mod report;
+mod rounds;
+mod setup;
+mod sky;
+mod stopwatch;
+mod table;
+
+pub(crate) use process::Device;
+pub(crate) use report::Report;
+pub(crate) use rounds::{Plan, measure, run};
+pub(crate) use setup::{Setup, Size};
+
+use crate::{commands::Failure, settings::Settings};
+use serde::{Deserialize, Serialize};
+use stopwatch::Spent;
+use welkin_scene::renderer::{DeviceInfo, PassTime};
+
+/// All cases.
+pub(crate) static CASES: [&dyn Case; 1] = [&sky::Sky];
+
+/// Something to measure.
+pub(crate) trait Case: Sync {
+    /// As the command line and the rows name it.
+    fn name(&self) -> &'static str;
+
+    /// What `run.py` of the baseline calls the like of it, where there is one.
+    fn baseline(&self) -> Option<&'static str>;
+
+    /// What is measured, setups of one size side by side. `sizes` are those asked for; without them, the case's own.
+    fn setups(&self, sizes: Option<&[Size]>) -> Vec<Setup>;
+
+    /// Measures one setup, in its own process. Every run gives the same works in the same order.
+    ///
+    /// # Errors
+    /// Where there is no device or it fails.
+    fn measure(&self, setup: &Setup, settings: &Settings) -> Result<Account, Failure>;
+}
+
+/// What one process measured.
+#[derive(Clone, Debug, Serialize)]
+pub(crate) struct Account {
+    /// The device that rendered.
+    pub(crate) device: DeviceInfo,
+    /// What was done, in order.
+    pub(crate) works: Vec<Work>,
+    /// The most memory that the process held at once, bytes, while it did what a user asks for; none where the
+    /// system does not tell it.
+    pub(crate) peak_memory_bytes: Option<u64>,
+}
+
+/// One piece of work and what it cost.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub(crate) struct Work {
+    /// What was done.
+    pub(crate) work: String,
+    /// Its time.
+    #[serde(flatten)]
+    pub(crate) spent: Spent,
+    /// The passes that ran.
+    pub(crate) passes: Vec<Pass>,
+    /// How far the result is from the reference, in the measure that the case defines.
+    pub(crate) error: Option<f64>,
+    /// What is wrong with it, where it broke a promise.
+    pub(crate) fault: Option<String>,
+}
+
+/// A pass that ran.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub(crate) struct Pass {
+    /// As its shader is named.
+    pub(crate) pass: String,
+    /// Milliseconds on the device.
+    pub(crate) ms: f64,
+}
+
+impl From<&PassTime> for Pass {
+    fn from(time: &PassTime) -> Self {
+        Self {
+            pass: time.pass.to_owned(),
+            ms: time.ms,
+        }
+    }
+}

@@ -1,0 +1,209 @@
+//! What was measured, as rows of medians.
+
+use super::{Device, Pass, Setup, baseline::Baseline, rounds::Measurements, stopwatch::Spent};
+use crate::commands::{Failure, build};
+use serde::Serialize;
+
+/// The answer of `welkin bench`.
+#[derive(Debug, Serialize)]
+pub(crate) struct Report {
+    /// Version and fingerprint of the program.
+    pub(crate) build: String,
+    /// The device that rendered.
+    #[serde(flatten)]
+    pub(crate) device: Device,
+    /// Processor cores that the program may use.
+    pub(crate) cores: usize,
+    /// Of how many runs each figure is the median.
+    pub(crate) rounds: u32,
+    /// What the baseline rendered with; null where it was not there.
+    pub(crate) baseline: Option<BaselineDevice>,
+    /// Why there is no baseline.
+    pub(crate) baseline_absent: Option<String>,
+    /// Promises broken: passes that ran and should not have.
+    pub(crate) faults: Vec<String>,
+    /// One row for each work under each setup.
+    pub(crate) rows: Vec<Row>,
+}
+
+/// What the baseline rendered with.
+#[derive(Debug, Serialize)]
+pub(crate) struct BaselineDevice {
+    /// The driver's name for it.
+    pub(crate) renderer: String,
+}
+
+/// One piece of work under one setup.
+#[derive(Debug, Serialize)]
+pub(crate) struct Row {
+    /// The case.
+    pub(crate) case: &'static str,
+    /// Its conditions.
+    #[serde(flatten)]
+    pub(crate) setup: Setup,
+    /// What was done.
+    pub(crate) work: String,
+    /// Medians.
+    #[serde(flatten)]
+    pub(crate) spent: Spent,
+    /// As the case defines it.
+    pub(crate) error: Option<f64>,
+    /// The passes that ran, each with its median.
+    pub(crate) passes: Vec<Pass>,
+    /// The most that a process of this setup held at once; the largest of the rounds.
+    pub(crate) peak_memory_bytes: Option<u64>,
+    /// A frame of the baseline, for work that rendered.
+    pub(crate) baseline: Option<BaselineRow>,
+}
+
+/// A frame of the baseline at the same size.
+#[derive(Debug, Serialize)]
+pub(crate) struct BaselineRow {
+    /// What the baseline calls it.
+    pub(crate) case: &'static str,
+    /// Medians.
+    #[serde(flatten)]
+    pub(crate) spent: Spent,
+    /// Its median over ours, time on the clock.
+    pub(crate) wall_ratio: f64,
+    /// Its median over ours, time of all threads.
+    pub(crate) cpu_ratio: Option<f64>,
+}
+
+impl Report {
+    pub(super) fn new(rounds: u32, all: &[Measurements], baseline: &Baseline) -> Result<Self, Failure> {
+        let first = all.iter().find_map(|one| one.runs.first());
+        let device = first
+            .ok_or_else(|| Failure::Bench("nothing was measured".to_owned()))?
+            .device
+            .clone();
+        let baseline_absent = match baseline {
+            Baseline::At(_) => None,
+            Baseline::Absent(reason) => Some(reason.clone()),
+        };
+        let measured = all.iter().find_map(|one| one.baseline.first());
+        let renderer = measured
+            .filter(|_| baseline_absent.is_none())
+            .map(|one| one.renderer.clone());
+        let mut rows: Vec<Row> = all.iter().flat_map(rows).collect();
+        if baseline_absent.is_some() {
+            rows.iter_mut().for_each(|row| row.baseline = None);
+        }
+        Ok(Self {
+            build: build(),
+            device,
+            cores: std::thread::available_parallelism().map_or(1, usize::from),
+            rounds,
+            baseline: renderer.map(|renderer| BaselineDevice { renderer }),
+            baseline_absent,
+            faults: all.iter().flat_map(faults).collect(),
+            rows,
+        })
+    }
+}
+
+fn rows(one: &Measurements) -> Vec<Row> {
+    let count = one.runs.first().map_or(0, |run| run.works.len());
+    (0..count).filter_map(|at| row(one, at)).collect()
+}
+
+/// The row of the work at one place in the order, over all runs.
+fn row(one: &Measurements, at: usize) -> Option<Row> {
+    let works: Vec<_> = one.runs.iter().filter_map(|run| run.works.get(at)).collect();
+    let over = |value: fn(&Spent) -> Option<f64>| {
+        median(works.iter().filter_map(|work| value(&work.spent))).map(whole_us)
+    };
+    let spent = Spent {
+        wall_ms: over(|spent| Some(spent.wall_ms))?,
+        cpu_ms: over(|spent| spent.cpu_ms),
+    };
+    let mut passes: Vec<Pass> = Vec::new();
+    for pass in works.iter().flat_map(|work| &work.passes) {
+        if !passes.iter().any(|known| known.pass == pass.pass) {
+            passes.push(pass.clone());
+        }
+    }
+    for pass in &mut passes {
+        let all = works.iter().flat_map(|work| &work.passes);
+        let times = all.filter(|other| other.pass == pass.pass).map(|other| other.ms);
+        pass.ms = median(times).map(whole_us)?;
+    }
+    let baseline = one
+        .case
+        .baseline()
+        .filter(|_| !passes.is_empty())
+        .and_then(|case| {
+            let wall_ms = median(one.baseline.iter().map(|measured| measured.wall_ms))?;
+            let cpu_ms = median(one.baseline.iter().map(|measured| measured.cpu_ms))?;
+            Some(BaselineRow {
+                case,
+                spent: Spent {
+                    wall_ms,
+                    cpu_ms: Some(cpu_ms),
+                },
+                wall_ratio: wall_ms / spent.wall_ms,
+                cpu_ratio: spent.cpu_ms.map(|own| cpu_ms / own),
+            })
+        });
+    Some(Row {
+        case: one.case.name(),
+        setup: one.setup.clone(),
+        work: works.first()?.work.clone(),
+        spent,
+        error: median(works.iter().filter_map(|work| work.error)),
+        passes,
+        peak_memory_bytes: one.runs.iter().filter_map(|run| run.peak_memory_bytes).max(),
+        baseline,
+    })
+}
+
+/// Each broken promise once, however many rounds broke it.
+fn faults(one: &Measurements) -> Vec<String> {
+    let conditions: Vec<_> = one.setup.parameters.values().map(ToString::to_string).collect();
+    let mut faults = Vec::new();
+    for work in one.runs.iter().flat_map(|run| &run.works) {
+        if let Some(fault) = &work.fault {
+            let size = one.setup.size;
+            let place = format!(
+                "{} {}x{} {}",
+                one.case.name(),
+                size.width_px,
+                size.height_px,
+                conditions.join(" ")
+            );
+            let line = format!("{place}: {} {fault}", work.work);
+            if !faults.contains(&line) {
+                faults.push(line);
+            }
+        }
+    }
+    faults
+}
+
+/// The middle value; of an even count, the mean of the middle two.
+fn median(values: impl Iterator<Item = f64>) -> Option<f64> {
+    let mut sorted: Vec<f64> = values.collect();
+    sorted.sort_by(f64::total_cmp);
+    let upper = *sorted.get(sorted.len() / 2)?;
+    let lower = *sorted.get((sorted.len() - 1) / 2)?;
+    Some(0.5 * (lower + upper))
+}
+
+/// Milliseconds to the microsecond: finer means nothing.
+fn whole_us(ms: f64) -> f64 {
+    (1e3 * ms).round() * 1e-3
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn medians() {
+        let median = |values: &[f64]| median(values.iter().copied());
+        assert_eq!(median(&[]), None);
+        assert_eq!(median(&[3.0]), Some(3.0));
+        assert_eq!(median(&[9.0, 1.0, 2.0]), Some(2.0));
+        assert_eq!(median(&[9.0, 1.0, 2.0, 4.0]), Some(3.0));
+    }
+}

@@ -1,0 +1,74 @@
+//! `welkin bench`
+
+use super::{Failure, document, logging};
+use crate::{
+    bench::{self, CASES, Case, Plan, Setup, Size},
+    settings::{DeviceFlags, Settings},
+};
+use serde_json::json;
+use std::path::{Path, PathBuf};
+
+/// Arguments of `welkin bench`.
+#[derive(clap::Args)]
+pub(crate) struct Args {
+    /// What to measure: sky [default: all]
+    name: Option<String>,
+    /// Of how many runs each figure is the median
+    #[arg(long, value_name = "COUNT", default_value_t = 7, value_parser = clap::value_parser!(u32).range(1..))]
+    rounds: u32,
+    /// Sizes of frames instead of the case's own, for example 640x360,1920x1080
+    #[arg(long, value_name = "SIZES", value_delimiter = ',')]
+    sizes: Option<Vec<Size>>,
+    /// Folder whose run.py measures the baseline beside it
+    #[arg(long, value_name = "FOLDER", default_value = "../shared/baseline")]
+    baseline: PathBuf,
+    /// Measure this setup in this process, for the process that asks
+    #[arg(long, hide = true, requires = "name")]
+    setup: Option<Setup>,
+    #[command(flatten)]
+    device: DeviceFlags,
+}
+
+/// Measures, and prints what it found.
+///
+/// # Errors
+/// Where there is no device, it fails, or a pass ran that should not have.
+pub(crate) fn run(args: &Args, config: Option<&Path>, json: bool) -> Result<(), Failure> {
+    let settings = Settings::load(config, &args.device)?;
+    logging::quiet();
+    let cases = match &args.name {
+        Some(name) => vec![named(name)?],
+        None => CASES.to_vec(),
+    };
+    if let (Some(setup), [case]) = (&args.setup, cases.as_slice()) {
+        return document::print(&bench::measure(*case, setup, &settings)?, false);
+    }
+    let report = bench::run(&Plan {
+        cases,
+        sizes: args.sizes.as_deref(),
+        rounds: args.rounds,
+        baseline: args.baseline.clone(),
+        settings: &settings,
+        config,
+    })?;
+    if let Some(reason) = &report.baseline_absent {
+        eprintln!("no baseline: {reason}");
+    }
+    if json {
+        document::print(&json!(report), true)?;
+    } else {
+        document::print_text(&report.to_string())?;
+    }
+    if report.faults.is_empty() {
+        Ok(())
+    } else {
+        Err(Failure::Bench(report.faults.join("\n")))
+    }
+}
+
+fn named(name: &str) -> Result<&'static dyn Case, Failure> {
+    CASES.into_iter().find(|case| case.name() == name).ok_or_else(|| {
+        let names = CASES.map(Case::name).join(", ");
+        Failure::Usage(format!("there is no benchmark {name:?}; there are {names}"))
+    })
+}
