@@ -160,7 +160,7 @@ const CAMERAS = {
   perspective: '',
   'perspective with roll': '&camera.roll_deg=30',
   fisheye: '&camera.projection.kind=fisheye&camera.projection.fov_deg=180&camera.projection.mapping=equisolid&camera.direction.elevation_deg=60&camera.direction.azimuth_deg=180',
-  'fisheye at the zenith': '&camera.projection.kind=fisheye&camera.direction.elevation_deg=90&camera.direction.azimuth_deg=0',
+  'fisheye at the zenith': '&camera.projection.kind=fisheye&camera.direction.elevation_deg=90&camera.direction.azimuth_deg=150',
   equirectangular: '&camera.projection.kind=equirectangular',
   cubemap: '&camera.projection.kind=cubemap',
 };

@@ -4,8 +4,6 @@ import { angleBetween, clamp, directionAngles, wrap360 } from './vector.js';
 
 const DIRECTION = '/camera/direction';
 const RAD = Math.PI / 180;
-/** At the zenith itself a camera has no heading, and the picture would jump round. */
-const STEEPEST_DEG = 89.9;
 /** Wide enough for any view, and short of what each projection can show. @type {Record<string, [string, number, number]>} */
 const FIELDS = { perspective: ['vertical_fov_deg', 0.5, 140], fisheye: ['fov_deg', 5, 300] };
 
@@ -29,7 +27,7 @@ export function createCamera(store, stage) {
     const { azimuth_deg, elevation_deg } = directionAngles(store.get(DIRECTION));
     store.set(DIRECTION, {
       azimuth_deg: Math.round(wrap360(azimuth_deg + azimuth) * 1e4) / 1e4,
-      elevation_deg: Math.round(clamp(elevation_deg + elevation, -STEEPEST_DEG, STEEPEST_DEG) * 1e4) / 1e4,
+      elevation_deg: Math.round(clamp(elevation_deg + elevation, -90, 90) * 1e4) / 1e4,
     });
   };
   return {

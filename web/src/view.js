@@ -19,14 +19,13 @@ const RAD = Math.PI / 180;
 
 /**
  * Right, up and forward of a camera, the picture turned clockwise by the roll.
- * Straight up or down there is no horizon to be level with: east is then at the right, as when tilting from the north.
+ * Straight up or down the azimuth still says where the right-hand side is.
  * @param {any} camera
  */
 export function axes(camera) {
   const angles = directionAngles(camera.direction);
   const forward = fromAngles(angles);
-  const heading = Math.hypot(forward[0], forward[1]) > 1e-9 ? angles.azimuth_deg : 0;
-  const right = fromAngles({ azimuth_deg: heading + 90, elevation_deg: 0 });
+  const right = fromAngles({ azimuth_deg: angles.azimuth_deg + 90, elevation_deg: 0 });
   const up = cross(right, forward);
   const [c, s] = [Math.cos(camera.roll_deg * RAD), Math.sin(camera.roll_deg * RAD)];
   return { right: combine([c, right], [s, up]), up: combine([c, up], [-s, right]), forward };
