@@ -45,7 +45,7 @@ fn radiance_towards(direction: vec3f) -> vec3f {
     var sum = vec3f(0.0);
     if above > 0.0 {
         let angle = min(zenith_angle, horizon);
-        if angle > least_zenith_angle(air.radius_m, air.top_m, view.altitude_m) {
+        if angle >= least_zenith_angle(air.radius_m, air.top_m, view.altitude_m) {
             let light = light_in_air(SkyViewRay(azimuth, angle, false, 0.0));
             sum += above * (scattered_radiance(air, view, light, nu) + exp(-light.optical_depth) * sun_disc(view, direction, camera.pixel_angle));
         } else {

@@ -31,7 +31,8 @@ impl CameraUniform {
         let right = DVec3::new(cos, -sin, 0.0);
         let up = right.cross(forward);
         let (sin, cos) = camera.roll_deg.to_radians().sin_cos();
-        let (right, up) = (right * cos - up * sin, up * cos + right * sin);
+        // The picture turns clockwise as the camera turns the other way.
+        let (right, up) = (right * cos + up * sin, up * cos - right * sin);
         let (width, height) = (f64::from(size_px.x), f64::from(size_px.y));
         let (projection, half_field, pixel_angle) = match camera.projection {
             Projection::Perspective { vertical_fov_deg } => {
