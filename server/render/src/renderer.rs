@@ -6,7 +6,7 @@ use crate::{
     frame_job::{FrameJob, TileBudget},
     gpu::AdapterChoice,
     kept_frames::KeptFrames,
-    probe_job,
+    probe_job::ProbeJob,
 };
 use futures_channel::oneshot;
 use std::{
@@ -60,7 +60,7 @@ struct Shared {
 
 enum Work {
     Frame(FrameJob, Answer<Arc<Frame>>),
-    Probe(ProbeRequest, Answer<ProbeAnswer>),
+    Probe(ProbeJob, Answer<ProbeAnswer>),
 }
 
 /// Where an answer goes, and the order's place in the queue, given back when this is dropped.
@@ -217,7 +217,7 @@ impl Render for Renderer {
     }
 
     fn probe(&self, request: ProbeRequest) -> Reply<ProbeAnswer> {
-        self.order(|answer| Work::Probe(request, answer))
+        self.order(|answer| Work::Probe(ProbeJob::new(request), answer))
     }
 
     fn device(&self) -> DeviceInfo {
@@ -332,9 +332,10 @@ impl Worker {
                     Err(error) => return Err((Work::Frame(job, answer), error)),
                 }
             }
-            Work::Probe(request, answer) => match probe_job::answer(engine, &request) {
-                Ok(result) => answer.send(Ok(result)),
-                Err(error) => return Err((Work::Probe(request, answer), error)),
+            Work::Probe(mut job, answer) => match job.step(engine) {
+                Ok(None) => return Ok(Some(Work::Probe(job, answer))),
+                Ok(Some(result)) => answer.send(Ok(result)),
+                Err(error) => return Err((Work::Probe(job, answer), error)),
             },
         }
         Ok(None)

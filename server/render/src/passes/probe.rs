@@ -13,8 +13,8 @@ use glam::DVec3;
 /// Steps along each ray.
 const STEPS: u32 = 256;
 
-/// Directions in one dispatch: about as much work as one tile of a frame.
-const CHUNK: usize = 8192;
+/// Most directions in one dispatch: about as much work as one tile of a frame.
+pub(crate) const CHUNK: usize = 8192;
 
 pub(crate) struct Probe {
     kernel: Kernel,
@@ -52,21 +52,13 @@ impl Probe {
         }
     }
 
-    /// One answer a direction. Waits for the device.
+    /// One answer a direction, at most [`CHUNK`] of them. Waits for the device.
     pub(crate) fn run(
         &self,
         gpu: &Gpu,
         inputs: ProbeInputs<'_>,
         sights: &[Sight],
     ) -> Result<Vec<Seen>, Error> {
-        let mut seen = Vec::with_capacity(sights.len());
-        for chunk in sights.chunks(CHUNK) {
-            seen.extend(self.chunk(gpu, inputs, chunk)?);
-        }
-        Ok(seen)
-    }
-
-    fn chunk(&self, gpu: &Gpu, inputs: ProbeInputs<'_>, sights: &[Sight]) -> Result<Vec<Seen>, Error> {
         let packed: Vec<[f32; 4]> = sights
             .iter()
             .map(|s| {
