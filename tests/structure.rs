@@ -1,4 +1,5 @@
 //! The tree is what ARCHITECTURE.md says it is.
+#![allow(clippy::unwrap_used, reason = "tests fail by panicking")]
 
 use std::{
     collections::BTreeSet,
