@@ -20,6 +20,8 @@ mod renderer;
 mod screen;
 mod shader;
 mod sunlight;
+#[cfg(test)]
+mod tests;
 mod uniforms;
 
 pub use error::Error;

@@ -17,7 +17,7 @@ const AZIMUTHS: u32 = 64;
 const CAP_RAD: f64 = 0.6;
 
 /// Gauss-Legendre nodes and weights on 0..1, by Newton's method on the Legendre polynomial.
-fn gauss_legendre(n: usize) -> Vec<(f64, f64)> {
+pub(crate) fn gauss_legendre(n: usize) -> Vec<(f64, f64)> {
     #[allow(clippy::cast_precision_loss, reason = "a few dozen nodes")]
     let float = |i: usize| i as f64;
     (0..n)

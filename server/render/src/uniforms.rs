@@ -95,7 +95,7 @@ impl AirUniform {
 
 /// Mean P_1 and P_2 of the Cornette-Shanks phase function k (1+cos²θ) HG, from those of Henyey-Greenstein, g^l, with
 /// 1+cos²θ = 4/3 + 2/3 P_2 and the products P_1 P_2 = (3 P_3 + 2 P_1)/5, P_2² = 18/35 P_4 + 2/7 P_2 + 1/5.
-fn cornette_shanks_moments(g: f64) -> Vec2 {
+pub(crate) fn cornette_shanks_moments(g: f64) -> Vec2 {
     let k = 1.5 / (2.0 + g * g);
     let p1 = k * (8.0 / 5.0 * g + 2.0 / 5.0 * g.powi(3));
     let p2 = k * (4.0 / 3.0 * g * g + 2.0 / 3.0 * (18.0 / 35.0 * g.powi(4) + 2.0 / 7.0 * g * g + 1.0 / 5.0));

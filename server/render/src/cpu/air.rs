@@ -36,14 +36,24 @@ pub(crate) fn transmittance_to_space(
     altitude_m: f64,
     mu: f64,
 ) -> [f64; 3] {
+    optical_depth_to_space(planet, air, altitude_m, mu).map_or([0.0; 3], |depth| depth.map(|d| (-d).exp()))
+}
+
+/// Its optical depth; none through the ground.
+pub(crate) fn optical_depth_to_space(
+    planet: &Planet,
+    air: &Atmosphere,
+    altitude_m: f64,
+    mu: f64,
+) -> Option<[f64; 3]> {
     let r = planet.radius_m + altitude_m;
     let closest = r * (1.0 - mu * mu).max(0.0).sqrt();
     if mu < 0.0 && closest < planet.radius_m {
-        return [0.0; 3];
+        return None;
     }
     let r_top = planet.radius_m + air.top_m;
     if closest >= r_top || (altitude_m > air.top_m && mu >= 0.0) {
-        return [1.0; 3];
+        return Some([0.0; 3]);
     }
     // Along the ray from its closest point s = 0: from the observer or the top, to the top.
     let reach = (r_top * r_top - closest * closest).sqrt();
@@ -65,5 +75,5 @@ pub(crate) fn transmittance_to_space(
     };
     add(from.max(0.0), reach);
     add(0.0, (-from).max(0.0));
-    tau.map(|t| (-t).exp())
+    Some(tau)
 }

@@ -1,3 +1,9 @@
 //! f64 twins of the functions in `shaders/lib`: the tests compare the two, and the facts of a frame come from here.
 
 pub(crate) mod air;
+#[cfg(test)]
+pub(crate) mod geometry;
+#[cfg(test)]
+pub(crate) mod phase;
+#[cfg(test)]
+pub(crate) mod scattering;

@@ -1,0 +1,77 @@
+//! Phase functions: the twin by quadrature, the shader by the twin, the moments by both.
+
+use super::{engine, evaluate};
+use crate::{
+    cpu::phase::{cornette_shanks, rayleigh, rings},
+    shader,
+    uniforms::cornette_shanks_moments,
+};
+
+const ASYMMETRIES: [f64; 9] = [-0.9, -0.5, 0.0, 0.3, 0.7, 0.76, 0.8, 0.95, 0.999];
+
+#[test]
+fn each_twin_integrates_to_one() {
+    let sum: f64 = rings().map(|(cos, sr)| sr * rayleigh(cos)).sum();
+    // What the product promises; the quadrature itself is good to 1e-8.
+    assert!((sum - 1.0).abs() < 1e-6, "Rayleigh: {sum}");
+    for g in ASYMMETRIES {
+        let sum: f64 = rings().map(|(cos, sr)| sr * cornette_shanks(cos, g)).sum();
+        assert!((sum - 1.0).abs() < 1e-6, "g = {g}: {sum}");
+    }
+}
+
+#[test]
+fn the_moments_are_those_of_the_phase_function() {
+    for g in ASYMMETRIES {
+        let p1: f64 = rings().map(|(c, sr)| sr * cornette_shanks(c, g) * c).sum();
+        let p2: f64 = rings()
+            .map(|(c, sr)| sr * cornette_shanks(c, g) * 0.5 * (3.0 * c * c - 1.0))
+            .sum();
+        let moments = cornette_shanks_moments(g);
+        // The moments are f32.
+        assert!(
+            (f64::from(moments.x) - p1).abs() < 1e-6,
+            "g = {g}: p1 {moments} {p1}"
+        );
+        assert!(
+            (f64::from(moments.y) - p2).abs() < 1e-6,
+            "g = {g}: p2 {moments} {p2}"
+        );
+    }
+    // The molecules' second moment, as lib/moments.wgsl has it.
+    let p2: f64 = rings()
+        .map(|(c, sr)| sr * rayleigh(c) * 0.5 * (3.0 * c * c - 1.0))
+        .sum();
+    assert!((p2 - 0.1).abs() < 1e-9, "{p2}");
+}
+
+#[test]
+fn the_shaders_phase_functions_are_their_twins_and_integrate_to_one() {
+    let engine = engine();
+    let nodes: Vec<_> = rings().collect();
+    for g in ASYMMETRIES {
+        let rows: Vec<[f32; 8]> = nodes
+            .iter()
+            .map(|(cos, _)| [*cos as f32, g as f32, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0])
+            .collect();
+        let statement = "x = vec4f(rayleigh_phase(a.x), cornette_shanks_phase(a.x, a.y), 0.0, 0.0);";
+        let found = evaluate(&engine.gpu, &shader::PROBE, statement, &rows, &[]);
+        let (mut rayleigh_sum, mut mie_sum) = (0.0, 0.0);
+        for ((row, found), (exact_cos, sr)) in rows.iter().zip(&found).zip(&nodes) {
+            // The f32 cosine that the shader was given.
+            let (cos, g) = (f64::from(row[0]), f64::from(row[1]));
+            let off = (f64::from(found[0]) / rayleigh(cos) - 1.0).abs();
+            // A few roundings of f32.
+            assert!(off < 1e-6, "Rayleigh at {cos}: {off}");
+            let off = (f64::from(found[1]) / cornette_shanks(cos, g) - 1.0).abs();
+            // 1 - cos rounds at 6e-8, which g = 0.999 compares with (1-g)² = 1e-6.
+            assert!(off < 1e-4, "g = {g} at {cos}: {off}");
+            rayleigh_sum += sr * f64::from(found[0]);
+            // The quadrature's own cosine: it lies between those of f32, which are too few for the peak of g = 0.999.
+            mie_sum += sr * f64::from(found[1]) * cornette_shanks(*exact_cos, g) / cornette_shanks(cos, g);
+        }
+        // What the product promises.
+        assert!((rayleigh_sum - 1.0).abs() < 1e-4, "Rayleigh: {rayleigh_sum}");
+        assert!((mie_sum - 1.0).abs() < 1e-4, "g = {g}: {mie_sum}");
+    }
+}
