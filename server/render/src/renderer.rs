@@ -59,8 +59,8 @@ struct Shared {
 }
 
 enum Work {
-    Frame(FrameJob, Answer<Arc<Frame>>),
-    Probe(ProbeJob, Answer<ProbeAnswer>),
+    Frame(Box<FrameJob>, Answer<Arc<Frame>>),
+    Probe(Box<ProbeJob>, Answer<ProbeAnswer>),
 }
 
 /// Where an answer goes, and the order's place in the queue, given back when this is dropped.
@@ -213,11 +213,11 @@ impl Render for Renderer {
                 })
             });
         }
-        self.order(|answer| Work::Frame(FrameJob::new(order), answer))
+        self.order(|answer| Work::Frame(Box::new(FrameJob::new(order)), answer))
     }
 
     fn probe(&self, request: ProbeRequest) -> Reply<ProbeAnswer> {
-        self.order(|answer| Work::Probe(ProbeJob::new(request), answer))
+        self.order(|answer| Work::Probe(Box::new(ProbeJob::new(request)), answer))
     }
 
     fn device(&self) -> DeviceInfo {

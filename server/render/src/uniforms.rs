@@ -10,7 +10,7 @@ use welkin_scene::{Atmosphere, Exposure, Orders, Planet, Scene, Sun};
 pub(crate) struct Part(pub(crate) Vec<u8>);
 
 impl Part {
-    pub(crate) fn new(value: &(impl ShaderType + ShaderSize + WriteInto)) -> Self {
+    pub(crate) fn new(value: &(impl ShaderSize + WriteInto)) -> Self {
         let mut bytes = vec![0; usize::try_from(value.size().get()).unwrap_or(0)];
         let mut writer = encase::UniformBuffer::new(&mut bytes);
         // The buffer has the value's own size.

@@ -257,11 +257,12 @@ fn display() -> impl Strategy<Value = Display> {
         ToneCurve::Aces,
         ToneCurve::Agx,
     ];
-    (exposure, select(curves), 1667.0..=25e3, any::<bool>()).prop_map(
-        |(exposure, tone_curve, white_balance_k, dither)| Display {
+    (exposure, select(curves), 1667.0..=25e3, 0.0..=10.0, any::<bool>()).prop_map(
+        |(exposure, tone_curve, white_balance_k, glare, dither)| Display {
             exposure,
             tone_curve,
             white_balance_k,
+            glare,
             dither,
         },
     )
