@@ -2,7 +2,12 @@
 //!
 //! `WELKIN_UPDATE_GOLDENS=1` writes them anew; look at each before it is committed. On failure the picture that was
 //! rendered and the difference are left in `target/tmp/golden`.
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::cast_possible_truncation, reason = "tests fail by panicking")]
+#![allow(
+    clippy::unwrap_used,
+    clippy::expect_used,
+    clippy::cast_possible_truncation,
+    reason = "tests fail by panicking"
+)]
 
 use nv_flip::{DEFAULT_PIXELS_PER_DEGREE, FlipImageRgb8, FlipPool, flip, magma_lut};
 use std::{
@@ -49,29 +54,54 @@ const ALLOWED: f32 = 0.005;
 fn render(scene: &str, width_px: u32, height_px: u32, to: &Path) {
     let named = scene.starts_with("preset:");
     let mut process = Command::new(env!("CARGO_BIN_EXE_welkin"))
-        .args(["render", if named { scene } else { "-" }, "-o", to.to_str().unwrap()])
-        .args(["--width-px", &width_px.to_string(), "--height-px", &height_px.to_string()])
+        .args([
+            "render",
+            if named { scene } else { "-" },
+            "-o",
+            to.to_str().unwrap(),
+        ])
+        .args([
+            "--width-px",
+            &width_px.to_string(),
+            "--height-px",
+            &height_px.to_string(),
+        ])
         .stdin(Stdio::piped())
         .spawn()
         .unwrap();
     if !named {
-        process.stdin.as_mut().unwrap().write_all(scene.as_bytes()).unwrap();
+        process
+            .stdin
+            .as_mut()
+            .unwrap()
+            .write_all(scene.as_bytes())
+            .unwrap();
     }
     drop(process.stdin.take());
     assert!(process.wait().unwrap().success(), "{scene}");
 }
 
 fn read(path: &Path) -> FlipImageRgb8 {
-    let mut reader = png::Decoder::new(BufReader::new(File::open(path).unwrap())).read_info().unwrap();
+    let mut reader = png::Decoder::new(BufReader::new(File::open(path).unwrap()))
+        .read_info()
+        .unwrap();
     let mut pixels = vec![0; reader.output_buffer_size().unwrap()];
     let info = reader.next_frame(&mut pixels).unwrap();
     FlipImageRgb8::with_data(info.width, info.height, &pixels)
 }
 
 fn write(path: &Path, image: &FlipImageRgb8) {
-    let mut encoder = png::Encoder::new(BufWriter::new(File::create(path).unwrap()), image.width(), image.height());
+    let mut encoder = png::Encoder::new(
+        BufWriter::new(File::create(path).unwrap()),
+        image.width(),
+        image.height(),
+    );
     encoder.set_color(png::ColorType::Rgb);
-    encoder.write_header().unwrap().write_image_data(&image.to_vec()).unwrap();
+    encoder
+        .write_header()
+        .unwrap()
+        .write_image_data(&image.to_vec())
+        .unwrap();
 }
 
 #[test]
@@ -88,12 +118,18 @@ fn pictures_look_as_they_should() {
         if update {
             fs::copy(&rendered, &golden).unwrap();
         }
-        assert!(fs::metadata(&golden).unwrap().len() <= 64 << 10, "{name}.png is over 64 KiB");
+        assert!(
+            fs::metadata(&golden).unwrap().len() <= 64 << 10,
+            "{name}.png is over 64 KiB"
+        );
         let error = flip(read(&golden), read(&rendered), DEFAULT_PIXELS_PER_DEGREE);
         let mean = FlipPool::from_image(&error).mean();
         println!("{name}: {mean:.4}");
         if mean > ALLOWED {
-            write(&folder.join(format!("{name}-difference.png")), &error.apply_color_lut(&magma_lut()));
+            write(
+                &folder.join(format!("{name}-difference.png")),
+                &error.apply_color_lut(&magma_lut()),
+            );
             wrong.push(format!("{name}: {mean:.4}"));
         }
     }
