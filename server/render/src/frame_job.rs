@@ -9,6 +9,9 @@ use glam::UVec2;
 use std::{sync::Arc, time::Instant};
 use welkin_scene::renderer::{Frame, FrameOrder, Output, PassTime, Pixels};
 
+#[cfg(test)]
+mod tests;
+
 /// How many pixels a tile has, so that no dispatch holds the device for long. Follows the device's speed.
 #[derive(Debug)]
 pub(crate) struct TileBudget {

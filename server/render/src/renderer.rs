@@ -25,6 +25,9 @@ use welkin_scene::{
     renderer::{DeviceInfo, Frame, FrameOrder, Output, Priority, Render, RenderError, Reply},
 };
 
+#[cfg(test)]
+mod tests;
+
 /// How the renderer is set up.
 #[derive(Clone, Debug)]
 pub struct RendererSettings {

@@ -11,6 +11,7 @@
 mod depth;
 mod furnace;
 mod geometry;
+mod layout;
 mod phase;
 mod scattering;
 mod tables;
@@ -20,7 +21,7 @@ use std::sync::{LazyLock, Mutex, MutexGuard, PoisonError};
 use wgpu::{BindGroupEntry, BindingResource, BufferUsages};
 
 /// One device for all tests.
-fn engine() -> MutexGuard<'static, Engine> {
+pub(crate) fn engine() -> MutexGuard<'static, Engine> {
     static ENGINE: LazyLock<Mutex<Engine>> =
         LazyLock::new(|| Mutex::new(Engine::open(&AdapterChoice::default(), 0).unwrap()));
     ENGINE.lock().unwrap_or_else(PoisonError::into_inner)

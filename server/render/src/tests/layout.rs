@@ -1,0 +1,294 @@
+//! Every uniform as the shaders read it: distinct values written by `encase`, found at naga's offsets by name.
+
+use crate::{
+    camera::CameraUniform,
+    shader::{self, Shader},
+    uniforms::{
+        AirUniform, MeterUniform, ObserverUniform, OrderUniform, Part, TileUniform, ToneUniform, ViewUniform,
+    },
+};
+use glam::{UVec2, Vec2, Vec3};
+use naga::{ScalarKind, TypeInner};
+use std::collections::BTreeMap;
+
+/// Values of one member, as the shader sees them.
+#[derive(Clone, Debug, PartialEq)]
+enum Values {
+    Floats(Vec<f32>),
+    Wholes(Vec<u32>),
+}
+
+/// The members of the shader's struct `name`, read from `part` at the offsets that naga gives them.
+fn as_shader_sees(shader: &Shader, name: &str, part: &Part) -> BTreeMap<String, Values> {
+    let module = naga::front::wgsl::parse_str(shader.wgsl).unwrap();
+    let (_, structure) = module
+        .types
+        .iter()
+        .find(|(_, t)| t.name.as_deref() == Some(name))
+        .expect("the shader has the struct");
+    let TypeInner::Struct { members, span } = &structure.inner else {
+        panic!("{name} is no struct");
+    };
+    assert_eq!(*span as usize, part.0.len(), "{name} in {}: size", shader.name);
+    let read = |member: &naga::StructMember| {
+        let (scalar, count) = match module.types[member.ty].inner {
+            TypeInner::Scalar(scalar) => (scalar, 1),
+            TypeInner::Vector { size, scalar } => (scalar, size as usize),
+            ref other => panic!("{name}.{:?}: {other:?}", member.name),
+        };
+        let words = part.0[member.offset as usize..].chunks_exact(4).take(count);
+        let words: Vec<[u8; 4]> = words.map(|word| word.try_into().unwrap()).collect();
+        match scalar.kind {
+            ScalarKind::Float => Values::Floats(words.into_iter().map(f32::from_le_bytes).collect()),
+            ScalarKind::Uint => Values::Wholes(words.into_iter().map(u32::from_le_bytes).collect()),
+            kind => panic!("{name}.{:?}: {kind:?}", member.name),
+        }
+    };
+    members
+        .iter()
+        .map(|member| (member.name.clone().unwrap(), read(member)))
+        .collect()
+}
+
+/// Distinct values for a struct's fields, and under which names and in which form they went in.
+#[derive(Default)]
+struct Filled {
+    next: u16,
+    members: BTreeMap<String, Values>,
+}
+
+impl Filled {
+    fn number(&mut self) -> u16 {
+        self.next += 1;
+        self.next
+    }
+
+    fn f32(&mut self, name: &str) -> f32 {
+        let value = f32::from(self.number());
+        self.members.insert(name.to_owned(), Values::Floats(vec![value]));
+        value
+    }
+
+    fn vec2(&mut self, name: &str) -> Vec2 {
+        let value = [(); 2].map(|()| f32::from(self.number()));
+        self.members
+            .insert(name.to_owned(), Values::Floats(value.to_vec()));
+        value.into()
+    }
+
+    fn vec3(&mut self, name: &str) -> Vec3 {
+        let value = [(); 3].map(|()| f32::from(self.number()));
+        self.members
+            .insert(name.to_owned(), Values::Floats(value.to_vec()));
+        value.into()
+    }
+
+    fn u32(&mut self, name: &str) -> u32 {
+        let value = u32::from(self.number());
+        self.members.insert(name.to_owned(), Values::Wholes(vec![value]));
+        value
+    }
+
+    fn uvec2(&mut self, name: &str) -> UVec2 {
+        let value = [(); 2].map(|()| u32::from(self.number()));
+        self.members
+            .insert(name.to_owned(), Values::Wholes(value.to_vec()));
+        value.into()
+    }
+}
+
+/// Fills each field by its own name.
+macro_rules! filled {
+    ($filled:ident, $structure:ident { $($field:ident: $kind:ident),+ $(,)? }) => {
+        Part::new(&$structure { $($field: $filled.$kind(stringify!($field))),+ })
+    };
+}
+
+fn check(shaders: &[&Shader], name: &str, part: &Part, filled: &Filled) {
+    for shader in shaders {
+        assert_eq!(
+            as_shader_sees(shader, name, part),
+            filled.members,
+            "{name} in {}",
+            shader.name
+        );
+    }
+}
+
+#[test]
+fn air() {
+    let mut f = Filled::default();
+    let part = filled!(
+        f,
+        AirUniform {
+            rayleigh_scattering_per_m: vec3,
+            rayleigh_inverse_height_per_m: f32,
+            ozone_absorption_per_m: vec3,
+            ozone_centre_m: f32,
+            ground_albedo: vec3,
+            ozone_inverse_half_width_per_m: f32,
+            mie_scattering_per_m: f32,
+            mie_extinction_per_m: f32,
+            mie_inverse_height_per_m: f32,
+            mie_asymmetry: f32,
+            radius_m: f32,
+            top_m: f32,
+            mie_moments: vec2,
+            multiple: f32,
+        }
+    );
+    let shaders = [
+        &shader::TRANSMITTANCE,
+        &shader::MULTI_SCATTERING,
+        &shader::SKY_VIEW,
+        &shader::SKY,
+        &shader::PROBE,
+    ];
+    check(&shaders, "Air", &part, &f);
+}
+
+#[test]
+fn observer() {
+    let mut f = Filled::default();
+    let part = filled!(
+        f,
+        ObserverUniform {
+            altitude_m: f32,
+            mu_s: f32,
+            sin_s: f32,
+            steps: u32
+        }
+    );
+    check(&[&shader::SKY_VIEW, &shader::PROBE], "Observer", &part, &f);
+}
+
+#[test]
+fn view() {
+    let mut f = Filled::default();
+    let part = filled!(
+        f,
+        ViewUniform {
+            up: vec3,
+            altitude_m: f32,
+            sun: vec3,
+            mu_s: f32,
+            sun_irradiance: vec3,
+            sun_angular_radius: f32,
+            limb_exponent: vec3,
+            disc: f32,
+        }
+    );
+    check(&[&shader::SKY, &shader::PROBE], "View", &part, &f);
+}
+
+#[test]
+fn camera() {
+    let mut f = Filled::default();
+    let part = filled!(
+        f,
+        CameraUniform {
+            right: vec3,
+            projection: u32,
+            up: vec3,
+            half_field: f32,
+            forward: vec3,
+            pixel_angle: f32,
+            size_px: vec2,
+        }
+    );
+    check(&[&shader::SKY], "Camera", &part, &f);
+}
+
+#[test]
+fn tile_order_and_meter() {
+    let mut f = Filled::default();
+    let part = filled!(
+        f,
+        TileUniform {
+            origin_px: uvec2,
+            size_px: uvec2
+        }
+    );
+    check(&[&shader::SKY], "Tile", &part, &f);
+    let mut f = Filled::default();
+    let part = filled!(
+        f,
+        OrderUniform {
+            last: u32,
+            steps: u32
+        }
+    );
+    check(&[&shader::MULTI_SCATTERING], "Order", &part, &f);
+    let mut f = Filled::default();
+    let part = filled!(
+        f,
+        MeterUniform {
+            size_px: uvec2,
+            compensation_ev: f32
+        }
+    );
+    check(&[&shader::EXPOSURE], "Meter", &part, &f);
+}
+
+#[test]
+fn tone() {
+    let mut f = Filled::default();
+    let part = filled!(
+        f,
+        ToneUniform {
+            white_r: vec3,
+            dither: u32,
+            white_g: vec3,
+            metered: u32,
+            white_b: vec3,
+            sun_angular_radius: f32,
+            gain: vec3,
+            glare: f32,
+            sun_irradiance: vec3,
+            origin_px: uvec2,
+            size_px: uvec2,
+        }
+    );
+    check(&[&shader::TONE], "Tone", &part, &f);
+}
+
+/// What the shaders bind as uniforms, so that a new one cannot go without a test above.
+#[test]
+fn every_uniform_is_tested() {
+    let mut names = Vec::new();
+    let shaders = [
+        &shader::TRANSMITTANCE,
+        &shader::MULTI_SCATTERING,
+        &shader::SKY_VIEW,
+        &shader::SKY,
+        &shader::EXPOSURE,
+        &shader::TONE,
+        &shader::PROBE,
+    ];
+    for shader in shaders {
+        let module = naga::front::wgsl::parse_str(shader.wgsl).unwrap();
+        for (_, variable) in module.global_variables.iter() {
+            if variable.space == naga::AddressSpace::Uniform {
+                names.push((shader.name, module.types[variable.ty].name.clone().unwrap()));
+            }
+        }
+    }
+    let expected = [
+        ("transmittance", "Air"),
+        ("multi_scattering", "Air"),
+        ("multi_scattering", "Order"),
+        ("sky_view", "Air"),
+        ("sky_view", "Observer"),
+        ("sky", "Air"),
+        ("sky", "View"),
+        ("sky", "Camera"),
+        ("sky", "Tile"),
+        ("exposure", "Meter"),
+        ("tone", "Tone"),
+        ("probe", "Air"),
+        ("probe", "View"),
+        ("probe", "Observer"),
+    ];
+    let expected = expected.map(|(shader, name)| (shader, name.to_owned()));
+    assert_eq!(names, expected);
+}
