@@ -3,8 +3,8 @@
 use std::{collections::VecDeque, sync::Arc};
 use welkin_scene::renderer::{Frame, FrameOrder, Pixels, Priority};
 
-/// Bytes that all kept frames may hold together.
-const MOST_BYTES: usize = 48 << 20;
+/// Bytes that all kept frames may hold together: the largest picture that a live viewer may ask for, and some.
+const MOST_BYTES: usize = 64 << 20;
 
 /// The latest frames. A viewer to whom nothing changed costs no render.
 #[derive(Default)]
@@ -34,7 +34,7 @@ impl KeptFrames {
     }
 
     pub(crate) fn keep(&mut self, order: FrameOrder, frame: &Arc<Frame>) {
-        if bytes(frame) > MOST_BYTES / 4 {
+        if bytes(frame) > MOST_BYTES {
             return;
         }
         // Who waited for it is not part of what was asked.

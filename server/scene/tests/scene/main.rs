@@ -4,6 +4,7 @@
 mod documents;
 mod faults;
 mod geometry;
+mod hostile;
 mod properties;
 mod schemas;
 mod sun;
