@@ -65,7 +65,10 @@ pub(crate) struct Prepared {
 impl Engine {
     /// `generation` tells this device from those before it.
     pub(crate) fn open(choice: &AdapterChoice, generation: u64) -> Result<Self, Error> {
-        let gpu = Gpu::open(choice)?;
+        Self::on(Gpu::open(choice)?, generation)
+    }
+
+    pub(crate) fn on(gpu: Gpu, generation: u64) -> Result<Self, Error> {
         let passes = gpu.guarded(|| {
             Ok((
                 Transmittance::new(&gpu),

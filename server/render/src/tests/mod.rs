@@ -11,6 +11,7 @@
 mod depth;
 mod furnace;
 mod geometry;
+mod half_tables;
 mod layout;
 mod phase;
 mod scattering;
