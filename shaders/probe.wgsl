@@ -38,7 +38,7 @@ fn probe(@builtin(global_invocation_id) id: vec3u) {
     if entry.length_m > 0.0 {
         light = scatter_along(air, entry, transmittance_table, multi_scattering_table, linear_clamp, observer.steps, true, true);
     }
-    var behind = directions[id.x].w * sun_disc(view, direction, 0.0);
+    var behind = directions[id.x].w * sun_disc(view, direction);
     if ground {
         behind = ground_radiance(air, view, nu, ground_m, transmittance_table, irradiance_table, linear_clamp);
     }

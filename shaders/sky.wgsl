@@ -2,7 +2,7 @@
 import package::lib::air::Air;
 import package::lib::camera::{Camera, sight_at};
 import package::lib::geometry::{angle_between, distance_to_sphere, edge_zenith_angle, horizon_distance_squared};
-import package::lib::light::{View, ground_radiance, scattered_radiance, sun_disc};
+import package::lib::light::{View, disc_radiance, ground_radiance, scattered_radiance};
 import package::lib::scattering::Scattered;
 import package::lib::tables::{SkyViewRay, sky_view_coordinate, least_zenith_angle};
 
@@ -30,7 +30,34 @@ fn light_in_air(ray: SkyViewRay) -> Scattered {
     return Scattered(rayleigh.rgb, mie.rgb, multiple.rgb, vec3f(rayleigh.a, mie.a, multiple.a));
 }
 
-fn radiance_towards(direction: vec3f) -> vec3f {
+// Places along each side of a pixel at which the disc is looked at.
+const DISC_PLACES = 12;
+
+// Mean radiance of the sun's disc over a pixel, so that a frame holds the sun's irradiance however large its pixels
+// are. A disc that is smaller than a pixel is drawn as large as a pixel and as much fainter.
+fn disc_in_pixel(place: vec2f, direction: vec3f) -> vec3f {
+    let angle = angle_between(direction, view.sun);
+    // Nowhere in any projection is a pixel far larger than at the centre.
+    if view.disc == 0.0 || view.sun_angular_radius <= 0.0 || angle > view.sun_angular_radius + 4.0 * camera.pixel_angle {
+        return vec3f(0.0);
+    }
+    // From the centre to the corners; not quite, since a cubemap's next face begins there.
+    let falling = angle_between(direction, sight_at(camera, place + vec2f(0.49, 0.49)).direction);
+    let rising = angle_between(direction, sight_at(camera, place + vec2f(0.49, -0.49)).direction);
+    let reach = max(falling, rising);
+    let alpha = max(view.sun_angular_radius, reach);
+    if angle + 3.0 * reach < alpha {
+        return disc_radiance(view, alpha, angle);
+    }
+    var sum = vec3f(0.0);
+    for (var i = 0; i < DISC_PLACES * DISC_PLACES; i++) {
+        let at = (vec2f(f32(i % DISC_PLACES), f32(i / DISC_PLACES)) + 0.5) / f32(DISC_PLACES) - 0.5;
+        sum += disc_radiance(view, alpha, angle_between(sight_at(camera, place + at).direction, view.sun));
+    }
+    return sum / f32(DISC_PLACES * DISC_PLACES);
+}
+
+fn radiance_towards(direction: vec3f, disc: vec3f) -> vec3f {
     let mu = dot(direction, view.up);
     let zenith_angle = angle_between(direction, view.up);
     let nu = clamp(dot(direction, view.sun), -1.0, 1.0);
@@ -47,9 +74,9 @@ fn radiance_towards(direction: vec3f) -> vec3f {
         let angle = min(zenith_angle, horizon);
         if angle >= least_zenith_angle(air.radius_m, air.top_m, view.altitude_m) {
             let light = light_in_air(SkyViewRay(azimuth, angle, false, 0.0));
-            sum += above * (scattered_radiance(air, view, light, nu) + exp(-light.optical_depth) * sun_disc(view, direction, camera.pixel_angle));
+            sum += above * (scattered_radiance(air, view, light, nu) + exp(-light.optical_depth) * disc);
         } else {
-            sum += above * sun_disc(view, direction, camera.pixel_angle);
+            sum += above * disc;
         }
     }
     if above < 1.0 {
@@ -69,11 +96,12 @@ fn sky(@builtin(global_invocation_id) id: vec3u) {
     if any(id.xy >= tile.size_px) {
         return;
     }
-    let sight = sight_at(camera, vec2f(tile.origin_px + id.xy) + 0.5);
+    let place = vec2f(tile.origin_px + id.xy) + 0.5;
+    let sight = sight_at(camera, place);
     var value = vec4f(0.0);
     if sight.seen {
         let off_sun = angle_between(sight.direction, view.sun);
-        value = vec4f(radiance_towards(sight.direction), 1.0 + off_sun);
+        value = vec4f(radiance_towards(sight.direction, disc_in_pixel(place, sight.direction)), 1.0 + off_sun);
     }
     radiance[id.y * tile.size_px.x + id.x] = value;
 }

@@ -26,25 +26,27 @@ fn scattered_radiance(air: Air, view: View, light: Scattered, nu: f32) -> vec3f 
     return view.sun_irradiance * (single + light.multiple);
 }
 
-// Radiance of the disc at an angle from its centre: E/(π α²) · Π (n+2)/2 · mu^n with mu = √(1-(γ/α)²) (Neckel and
-// Labs 1994 as a power law, Hestroffer and Magnan 1998). The factor keeps the irradiance: ∫ mu^n over the disc is
-// 2/(n+2). The edge is blended over one pixel.
-fn sun_disc(view: View, direction: vec3f, pixel_angle: f32) -> vec3f {
-    let alpha = view.sun_angular_radius;
-    if view.disc == 0.0 || alpha <= 0.0 {
+// Radiance at an angle from the centre of a disc of angular radius α that sends the sun's irradiance: E/(π α²) ·
+// (n+2)/2 · mu^n with mu = √(1-(γ/α)²) (Neckel and Labs 1994 as a power law, Hestroffer and Magnan 1998). The factor
+// keeps the irradiance: ∫ mu^n over the disc is 2/(n+2).
+fn disc_radiance(view: View, alpha: f32, angle: f32) -> vec3f {
+    if angle > alpha {
         return vec3f(0.0);
     }
-    let angle = angle_between(direction, view.sun);
-    let cover = clamp(0.5 + (alpha - angle) / max(pixel_angle, 1e-9), 0.0, 1.0);
-    if cover <= 0.0 {
-        return vec3f(0.0);
-    }
-    let rim = min(angle / alpha, 1.0);
+    let rim = angle / alpha;
     let mu = sqrt(max(1.0 - rim * rim, 1e-4));
     let darkening = (view.limb_exponent + 2.0) * 0.5 * pow(vec3f(mu), view.limb_exponent);
     // Solid angle of the cap, 2π(1 - cos α) = 4π sin²(α/2).
     let half_sine = sin(0.5 * alpha);
-    return cover * darkening * view.sun_irradiance / (4.0 * PI * half_sine * half_sine);
+    return darkening * view.sun_irradiance / (4.0 * PI * half_sine * half_sine);
+}
+
+// Radiance of the sun's disc in one direction.
+fn sun_disc(view: View, direction: vec3f) -> vec3f {
+    if view.disc == 0.0 || view.sun_angular_radius <= 0.0 {
+        return vec3f(0.0);
+    }
+    return disc_radiance(view, view.sun_angular_radius, angle_between(direction, view.sun));
 }
 
 // Radiance of the ground where the ray meets it, before the air in front: ρ/π (E_sun + E_sky).

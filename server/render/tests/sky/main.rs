@@ -1,0 +1,15 @@
+//! What scenes look like, through the renderer as others use it.
+#![allow(
+    clippy::unwrap_used,
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    clippy::needless_range_loop,
+    reason = "tests fail by panicking; three bands run side by side through several arrays"
+)]
+
+mod air;
+mod disc;
+mod lens;
+mod orders;
+mod projections;
+mod scenes;
