@@ -108,41 +108,18 @@ pub(crate) fn place(camera: &Camera, (width, height): (f64, f64), d: Vector) -> 
     }
 }
 
-/// The direction seen at a place on the picture: the inverse, found by the forward map alone. Newton's steps from the
-/// direction nearest among many.
-pub(crate) fn sight(camera: &Camera, size: (f64, f64), at: (f64, f64)) -> Option<Vector> {
-    let off = |d: Vector| place(camera, size, d).map(|(x, y)| (x - at.0, y - at.1));
-    let far = |d: Vector| off(d).map_or(f64::INFINITY, |(x, y)| x.hypot(y));
-    let grid =
-        (0..90).flat_map(|e| (0..180).map(move |a| unit(f64::from(2 * a) + 1.0, f64::from(2 * e) - 89.0)));
-    let mut d = grid.min_by(|a, b| far(*a).total_cmp(&far(*b)))?;
-    for _ in 0..40 {
-        let (x, y) = off(d)?;
-        if x.hypot(y) < 1e-9 {
-            return Some(d);
+/// The direction seen at a place on the picture: the inverse of [`place`] for pictures without roll.
+pub(crate) fn sight(camera: &Camera, (width, height): (f64, f64), (x, y): (f64, f64)) -> Vector {
+    match camera.projection {
+        Projection::Perspective { vertical_fov_deg } => {
+            let scale = height / 2.0 / (vertical_fov_deg.to_radians() / 2.0).tan();
+            let [forward, right, up] = axes(camera);
+            let (x, y) = ((x - width / 2.0) / scale, (height / 2.0 - y) / scale);
+            let d = [0, 1, 2].map(|i| forward[i] + x * right[i] + y * up[i]);
+            let length = dot(d, d).sqrt();
+            d.map(|c| c / length)
         }
-        // Two directions across.
-        let pole = if d[2].abs() < 0.9 {
-            [0.0, 0.0, 1.0]
-        } else {
-            [1.0, 0.0, 0.0]
-        };
-        let a = normalized(cross(pole, d));
-        let b = cross(d, a);
-        let h = 1e-6;
-        let moved = |by: Vector| off(normalized([d[0] + h * by[0], d[1] + h * by[1], d[2] + h * by[2]]));
-        let ((ax, ay), (bx, by)) = (moved(a)?, moved(b)?);
-        let (xa, ya, xb, yb) = ((ax - x) / h, (ay - y) / h, (bx - x) / h, (by - y) / h);
-        let determinant = xa * yb - xb * ya;
-        let (p, q) = ((-x * yb + y * xb) / determinant, (-y * xa + x * ya) / determinant);
-        let reach = p.hypot(q).max(1e-12);
-        let limit = reach.min(0.05) / reach;
-        d = normalized([0, 1, 2].map(|i| d[i] + limit * (p * a[i] + q * b[i])));
+        Projection::Equirectangular {} => unit(x / width * 360.0 - 90.0, 90.0 - y / height * 180.0),
+        other => panic!("no inverse of {other:?}"),
     }
-    (far(d) < 1e-4).then_some(d)
-}
-
-fn normalized(v: Vector) -> Vector {
-    let length = dot(v, v).sqrt();
-    v.map(|c| c / length)
 }

@@ -9,7 +9,11 @@
 
 mod air;
 mod disc;
+mod display;
+mod frames;
+mod horizon;
 mod lens;
 mod orders;
 mod projections;
+mod queue;
 mod scenes;
