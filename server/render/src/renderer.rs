@@ -46,11 +46,31 @@ impl Default for RendererSettings {
     }
 }
 
-/// The renderer. Clones share one thread and one device; the thread ends with the last clone.
+/// The renderer. Clones share one thread and one device; dropping the last one waits until the thread has closed the
+/// device.
 #[derive(Clone)]
 pub struct Renderer {
-    queue: mpsc::Sender<Work>,
+    thread: Arc<RendererThread>,
     shared: Arc<Shared>,
+}
+
+/// The way to the thread.
+struct RendererThread {
+    /// None once it shall end.
+    queue: Option<mpsc::Sender<Work>>,
+    handle: Option<thread::JoinHandle<()>>,
+}
+
+impl Drop for RendererThread {
+    /// A process that ends while the thread still holds the device crashes in the driver's own clean-up.
+    fn drop(&mut self) {
+        self.queue = None;
+        if let Some(handle) = self.handle.take()
+            && handle.join().is_err()
+        {
+            tracing::error!("the renderer's thread panicked");
+        }
+    }
 }
 
 struct Shared {
@@ -114,7 +134,7 @@ impl Renderer {
         let (queue, orders) = mpsc::channel();
         let (opened, first) = mpsc::channel();
         let places = settings.queue_places.max(1);
-        thread::Builder::new().name("renderer".into()).spawn(move || {
+        let handle = thread::Builder::new().name("renderer".into()).spawn(move || {
             let engine = match Engine::open(&settings.adapter, 0) {
                 Ok(engine) => engine,
                 Err(error) => return drop(opened.send(Err(error))),
@@ -135,7 +155,14 @@ impl Renderer {
         let shared = first
             .recv()
             .map_err(|_| Error::Open("the renderer's thread ended at once".to_owned()))??;
-        let renderer = Self { queue, shared };
+        let thread = RendererThread {
+            queue: Some(queue),
+            handle: Some(handle),
+        };
+        let renderer = Self {
+            thread: Arc::new(thread),
+            shared,
+        };
         renderer.warm_up();
         Ok(renderer)
     }
@@ -166,13 +193,15 @@ impl Renderer {
             return Box::pin(async move { Err(error) });
         }
         let (sender, receiver) = oneshot::channel();
+        let order = work(Answer {
+            sender,
+            shared: Arc::clone(shared),
+        });
         let sent = self
+            .thread
             .queue
-            .send(work(Answer {
-                sender,
-                shared: Arc::clone(shared),
-            }))
-            .is_ok();
+            .as_ref()
+            .is_some_and(|queue| queue.send(order).is_ok());
         Box::pin(async move {
             if !sent {
                 return Err(RenderError::Stopped);
