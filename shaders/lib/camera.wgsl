@@ -41,7 +41,9 @@ fn sight_at(camera: Camera, pixel: vec2f) -> Sight {
             let radius = length(at);
             var angle = radius * camera.half_field;
             if camera.projection == 2u {
-                angle = 2.0 * asin(min(radius * sin(0.5 * camera.half_field), 1.0));
+                // Drivers' asin may be off by 1e-4, half a pixel of a large frame; their atan2 is exact.
+                let sine = min(radius * sin(0.5 * camera.half_field), 1.0);
+                angle = 2.0 * atan2(sine, sqrt(1.0 - sine * sine));
             } else if camera.projection == 3u {
                 angle = 2.0 * atan(radius * tan(0.5 * camera.half_field));
             }

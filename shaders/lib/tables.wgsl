@@ -88,12 +88,14 @@ fn sky_view_ray(radius_m: f32, top_m: f32, altitude_m: f32, texel: vec2u, size: 
     let y = texel_to_unit(texel.y, half_rows);
     let squared = horizon_distance_squared(radius_m, altitude_m);
     let d = altitude_m + y * (sqrt(squared) - altitude_m);
-    // R² = r² + d² + 2 r d mu
-    var mu = -1.0;
+    // From R² = r² + d² + 2 r d mu follows 1 + mu = (d - h)(2R + h - d) / (2 r d). The half angle of the nadir's side by
+    // its tangent: drivers' acos may be off by 1e-4, which from far away is kilometres of ground.
+    var nadir_angle = 0.0;
     if d > altitude_m && d > 0.0 {
-        mu = clamp(-(squared + d * d) / (2.0 * (radius_m + altitude_m) * d), -1.0, 0.0);
+        let risen = clamp((d - altitude_m) * (2.0 * radius_m + altitude_m - d) / (2.0 * (radius_m + altitude_m) * d), 0.0, 1.0);
+        nadir_angle = 2.0 * atan(sqrt(risen / (2.0 - risen)));
     }
-    return SkyViewRay(azimuth, acos(mu), true, d);
+    return SkyViewRay(azimuth, PI - nadir_angle, true, d);
 }
 
 fn sky_view_coordinate(radius_m: f32, top_m: f32, altitude_m: f32, ray: SkyViewRay, size: vec2u) -> vec2f {
