@@ -29,13 +29,7 @@ fn small() -> FrameOrder {
 
 /// Seconds of work on a software adapter: 67 million pixels.
 fn endless() -> FrameOrder {
-    let order = order(
-        Scene::default(),
-        16_384,
-        4096,
-        Quality::Preview,
-        Output::Display,
-    );
+    let order = order(Scene::default(), 16_384, 4096, Quality::Preview, Output::Display);
     FrameOrder {
         priority: Priority::Batch,
         ..order
