@@ -90,14 +90,10 @@ fn choose(choice: &AdapterChoice) -> Result<wgpu::Adapter, Error> {
             named && !(choice.require_gpu && info.device_type == wgpu::DeviceType::Cpu)
         })
         .ok_or_else(|| {
-            let name = choice
-                .name
-                .as_ref()
-                .map_or_else(|| "any name".to_owned(), |n| format!("\"{n}\""));
-            let asked = if choice.require_gpu {
-                format!("{name} that is a GPU")
-            } else {
-                name
+            let asked = match (&choice.name, choice.require_gpu) {
+                (Some(name), true) => format!("\"{name}\" that is a GPU"),
+                (Some(name), false) => format!("\"{name}\""),
+                (None, _) => "the wish for a GPU".to_owned(),
             };
             Error::NoSuchAdapter { asked, there }
         })
