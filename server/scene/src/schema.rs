@@ -32,7 +32,12 @@ pub(crate) struct Unit {
 }
 
 /// A suffix stands before any other that it ends in.
-const UNITS: [Unit; 8] = [
+const UNITS: [Unit; 9] = [
+    Unit {
+        suffix: "_w_m2_sr",
+        symbol: "W/m²/sr",
+        word: "W/m²/sr",
+    },
     Unit {
         suffix: "_per_m",
         symbol: "1/m",

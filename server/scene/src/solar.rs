@@ -15,8 +15,8 @@ use std::{ops::RangeInclusive, time::Duration};
 pub(crate) const YEARS: RangeInclusive<i32> = 1900..=2100;
 
 /// Air at the ground, whose refraction lifts the sun: hPa and °C, the usual assumption of solar almanacs.
-const PRESSURE_HPA: f64 = 1013.25;
-const TEMPERATURE_C: f64 = 12.0;
+pub(crate) const PRESSURE_HPA: f64 = 1013.25;
+pub(crate) const TEMPERATURE_C: f64 = 12.0;
 
 impl Scene {
     /// Unit vector towards the sun in the world frame at the origin. Zeros for a scene that validation refuses.
