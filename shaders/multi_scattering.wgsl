@@ -12,7 +12,7 @@ import package::lib::air::Air;
 import package::lib::geometry::{PI, cosine_after, distance_to_sphere, distance_to_top, horizon_distance_squared};
 import package::lib::moments::{MOMENTS, harmonics};
 import package::lib::phase::{rayleigh_phase, cornette_shanks_phase};
-import package::lib::scattering::{AirRay, scatter_along};
+import package::lib::scattering::{AirRay, March, scatter_along};
 import package::lib::tables::{multi_scattering_point, sun_cosine_unit, texel_to_unit, unit_to_coordinate};
 import package::lib::transmittance::transmittance_to_space;
 
@@ -66,7 +66,7 @@ fn add_direction(share: ptr<function, Share>, h: f32, mu_s: f32, mu: f32, azimut
     let ground = to_ground >= 0.0;
     let length_m = select(distance_to_top(air.radius_m, air.top_m, h, mu), to_ground, ground);
     let ray = AirRay(h, mu, mu_s, nu, length_m);
-    let scattered = scatter_along(air, ray, transmittance_table, moments_before, linear_clamp, order.steps, FIRST, !FIRST);
+    let scattered = scatter_along(air, ray, transmittance_table, moments_before, linear_clamp, March(FIRST, !FIRST, false, order.steps, 0u));
     var radiance = scattered.multiple;
     if FIRST {
         radiance = rayleigh_phase(nu) * scattered.rayleigh;

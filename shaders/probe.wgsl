@@ -2,7 +2,7 @@
 import package::lib::air::Air;
 import package::lib::geometry::distance_to_sphere;
 import package::lib::light::{View, ground_radiance, scattered_radiance, sun_disc};
-import package::lib::scattering::{Scattered, scatter_along};
+import package::lib::scattering::{March, Scattered, scatter_along};
 import package::lib::view_ray::{Observer, enter_air};
 
 struct Answer {
@@ -36,7 +36,7 @@ fn probe(@builtin(global_invocation_id) id: vec3u) {
     let entry = enter_air(air, observer, mu, nu, ground, ground_m);
     var light: Scattered;
     if entry.length_m > 0.0 {
-        light = scatter_along(air, entry, transmittance_table, multi_scattering_table, linear_clamp, observer.steps, true, true);
+        light = scatter_along(air, entry, transmittance_table, multi_scattering_table, linear_clamp, March(true, true, false, observer.steps, 0u));
     }
     var behind = directions[id.x].w * sun_disc(view, direction);
     if ground {

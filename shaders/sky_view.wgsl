@@ -2,7 +2,7 @@
 // to the reader: without them the table is smooth in azimuth, few columns serve, and the aureole is exact at any zoom.
 import package::lib::air::Air;
 import package::lib::geometry::distance_to_top;
-import package::lib::scattering::{AirRay, Scattered, scatter_along};
+import package::lib::scattering::{AirRay, March, Scattered, scatter_along};
 import package::lib::view_ray::{Observer, enter_air};
 import package::lib::tables::sky_view_ray;
 
@@ -26,7 +26,7 @@ fn sky_view(@builtin(global_invocation_id) id: vec3u) {
     let entry = enter_air(air, observer, mu, clamp(nu, -1.0, 1.0), ray.ground, ray.distance_m);
     var light: Scattered;
     if entry.length_m > 0.0 {
-        light = scatter_along(air, entry, transmittance_table, multi_scattering_table, linear_clamp, observer.steps, true, true);
+        light = scatter_along(air, entry, transmittance_table, multi_scattering_table, linear_clamp, March(true, true, false, observer.steps, 0u));
     }
     textureStore(table, id.xy, 0, vec4f(light.rayleigh, light.optical_depth.r));
     textureStore(table, id.xy, 1, vec4f(light.mie, light.optical_depth.g));

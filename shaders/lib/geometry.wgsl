@@ -49,6 +49,21 @@ fn distance_to_top(radius_m: f32, top_m: f32, altitude_m: f32, mu: f32) -> f32 {
     return root - b;
 }
 
+// The stretch of a ray of length t_max that lies inside a sphere of radius `r_shell`, from altitude h above it
+// (negative: inside), empty where x ≥ y. Roots of t² + 2 (r_shell + h) mu t + h(2 r_shell + h), the far one of them
+// added, the near one by the quotient, so that nothing cancels.
+fn shell_stretch(r_shell_m: f32, h: f32, mu: f32, t_max: f32) -> vec2f {
+    let b = (r_shell_m + h) * mu;
+    let c = h * (2.0 * r_shell_m + h);
+    let discriminant = b * b - c;
+    if discriminant <= 0.0 {
+        return vec2f(0.0);
+    }
+    let q = -(b + select(-1.0, 1.0, b >= 0.0) * sqrt(discriminant));
+    let other = select(c / q, 0.0, q == 0.0);
+    return vec2f(max(min(q, other), 0.0), min(max(q, other), t_max));
+}
+
 // Angle from the zenith at which the sphere's edge is seen from altitude h above it: π/2 + atan(√(h(2R+h)) / R).
 fn edge_zenith_angle(radius_m: f32, altitude_m: f32) -> f32 {
     return 0.5 * PI + atan(sqrt(horizon_distance_squared(radius_m, altitude_m)) / radius_m);

@@ -1,8 +1,8 @@
 // Light scattered towards the observer along one ray, without phase functions, for a sun of unit irradiance.
 import package::lib::air::{Air, coefficients_at};
-import package::lib::geometry::{altitude_after, cosine_after, shadow_stretch};
+import package::lib::geometry::{altitude_after, cosine_after, shadow_stretch, shell_stretch};
 import package::lib::moments::source_per_m;
-import package::lib::transmittance::optical_depth_to_top;
+import package::lib::transmittance::{haze_optical_depth, integrate_optical_depth, optical_depth_to_top};
 
 // A stretch of a ray inside the air.
 struct AirRay {
@@ -11,6 +11,19 @@ struct AirRay {
     mu_s: f32,
     nu: f32,
     length_m: f32,
+}
+
+// What is integrated, and how. Constant where it is called, so that nobody pays for what they do not ask for: a
+// software device runs both sides of every branch.
+struct March {
+    // The first order; the others.
+    with_sun: bool,
+    with_moments: bool,
+    // The optical depth to the sun is integrated anew at every step, not read from the table.
+    nested: bool,
+    steps: u32,
+    // Of the nested integral.
+    sun_steps: u32,
 }
 
 struct Scattered {
@@ -23,69 +36,67 @@ struct Scattered {
     optical_depth: vec3f,
 }
 
-// ∫ T σ_s S dt. The ray is cut at its lowest point and where the planet's shadow begins and ends, so that density,
-// and light or dark, run evenly through each piece; steps grow with the square from the piece's lower end, where the
-// air is densest. Within a step the source is constant and its own attenuation exact (Hillaire 2015):
-// ∫ S e^{-σt} dt = S (1 - e^{-σΔt}) / σ. `with_sun` false leaves the first order out,
-// `with_moments` false the others.
+// ∫ T σ_s S dt. The ray is cut at its lowest point, where the planet's shadow begins and ends and where the haze does,
+// so that density, and light or dark, run evenly through each piece. In a piece, steps grow with the square from its
+// lower end, where the air is densest; in a dense haze they take equal shares of what is seen of it from the piece's
+// near end. Within a step the source is constant and its own attenuation exact (Hillaire 2015):
+// ∫ S e^{-σt} dt = S (1 - e^{-σΔt}) / σ.
 fn scatter_along(
     air: Air,
     ray: AirRay,
     transmittance_table: texture_2d<f32>,
     multiple_table: texture_2d_array<f32>,
     linear_clamp: sampler,
-    steps: u32,
-    with_sun: bool,
-    with_moments: bool,
+    march: March,
 ) -> Scattered {
     var sum: Scattered;
     let lowest = clamp(-(air.radius_m + ray.altitude_m) * ray.mu, 0.0, ray.length_m);
     let dark = shadow_stretch(air.radius_m, ray.altitude_m, ray.mu, ray.mu_s, ray.nu, ray.length_m);
     let has_dark = dark.x < dark.y;
-    let dark_from = select(ray.length_m, dark.x, has_dark);
-    let dark_to = select(ray.length_m, dark.y, has_dark);
-    // The cuts in order.
-    let first = min(lowest, dark_from);
-    let second = max(min(max(lowest, dark_from), dark_to), first);
-    let third = max(lowest, dark_to);
-    var cuts = array<f32, 5>(0.0, first, second, third, ray.length_m);
+    let hazy = shell_stretch(air.radius_m + air.haze_top_m, ray.altitude_m - air.haze_top_m, ray.mu, ray.length_m);
+    let has_haze = air.haze_extinction_per_m > 0.0 && hazy.x < hazy.y;
+    let end = ray.length_m;
+    var cuts = sorted(lowest, select(vec2f(end), dark, has_dark), select(vec2f(end), hazy, has_haze), end);
     var pieces = 0u;
-    for (var i = 0u; i < 4u; i++) {
+    for (var i = 0u; i < PIECES; i++) {
         pieces += u32(cuts[i + 1u] > cuts[i]);
     }
-    let piece_steps = max(steps / max(pieces, 1u), 4u);
-    for (var i = 0u; i < 4u; i++) {
+    let piece_steps = max(march.steps / max(pieces, 1u), 4u);
+    for (var i = 0u; i < PIECES; i++) {
         let from_m = cuts[i];
-        let to_m = cuts[i + 1u];
-        if to_m <= from_m {
+        let length_m = cuts[i + 1u] - from_m;
+        if length_m <= 0.0 {
             continue;
         }
-        let middle = 0.5 * (from_m + to_m);
-        let lit = !(has_dark && middle > dark_from && middle < dark_to);
+        let middle = from_m + 0.5 * length_m;
+        let lit = !(has_dark && middle > dark.x && middle < dark.y);
+        let in_haze = has_haze && middle > hazy.x && middle < hazy.y;
         let rising = middle > lowest;
+        let haze_depth = min(select(0.0, air.haze_extinction_per_m * length_m, in_haze), DEEPEST_HAZE);
         for (var k = 0u; k < piece_steps; k++) {
-            let a = f32(k) / f32(piece_steps);
-            let b = f32(k + 1u) / f32(piece_steps);
-            let m = 0.5 * (a + b);
-            // Squares from the lower end, which is the near one where the ray rises.
-            let near = select(1.0 - (1.0 - a) * (1.0 - a), a * a, rising);
-            let far = select(1.0 - (1.0 - b) * (1.0 - b), b * b, rising);
-            let at = select(1.0 - (1.0 - m) * (1.0 - m), m * m, rising);
-            let dt = (far - near) * (to_m - from_m);
-            let t = from_m + at * (to_m - from_m);
+            let near = piece_share(f32(k) / f32(piece_steps), haze_depth, rising);
+            let far = piece_share(f32(k + 1u) / f32(piece_steps), haze_depth, rising);
+            let at = piece_share((f32(k) + 0.5) / f32(piece_steps), haze_depth, rising);
+            let dt = (far - near) * length_m;
+            let t = from_m + at * length_m;
             let h = altitude_after(air.radius_m, ray.altitude_m, ray.mu, t);
             let mu_s = cosine_after(air.radius_m, ray.altitude_m, h, ray.mu_s, ray.nu, t);
-            let c = coefficients_at(air, h);
+            let c = coefficients_at(air, h, in_haze);
             let tau = c.extinction_per_m * dt;
             // (1 - e^{-τ})/τ, by its series where that cancels.
             let share = select((1.0 - exp(-tau)) / max(tau, vec3f(1e-6)), 1.0 - 0.5 * tau, tau < vec3f(1e-3));
             let weight = exp(-sum.optical_depth) * share * dt;
-            if lit && with_sun {
-                let sun = exp(-optical_depth_to_top(air, transmittance_table, linear_clamp, h, mu_s));
-                sum.rayleigh += weight * c.rayleigh_per_m * sun;
-                sum.mie += weight * c.mie_per_m * sun;
+            if march.with_sun && lit {
+                var depth: vec3f;
+                if march.nested {
+                    depth = integrate_optical_depth(air, h, mu_s, march.sun_steps) + haze_optical_depth(air, h, mu_s);
+                } else {
+                    depth = optical_depth_to_top(air, transmittance_table, linear_clamp, h, mu_s);
+                }
+                sum.rayleigh += weight * c.rayleigh_per_m * exp(-depth);
+                sum.mie += weight * c.mie_per_m * exp(-depth);
             }
-            if with_moments {
+            if march.with_moments {
                 let mu = cosine_after(air.radius_m, ray.altitude_m, h, ray.mu, 1.0, t);
                 sum.multiple += weight * source_per_m(air, c, multiple_table, linear_clamp, h, mu, mu_s, ray.nu);
             }
@@ -93,4 +104,36 @@ fn scatter_along(
         }
     }
     return sum;
+}
+
+const PIECES = 6u;
+// Beyond e⁻¹² nothing of the haze is seen.
+const DEEPEST_HAZE = 12.0;
+
+// The places at which a ray is cut, in order: two stretches and a place between 0 and the end.
+fn sorted(place: f32, a: vec2f, b: vec2f, end: f32) -> array<f32, 7> {
+    // Two pairs that are each in order, merged, and the single place put among them.
+    let first = min(a.x, b.x);
+    let last = max(a.y, b.y);
+    let inner = vec2f(max(a.x, b.x), min(a.y, b.y));
+    let q = array<f32, 4>(first, min(inner.x, inner.y), max(inner.x, inner.y), last);
+    return array<f32, 7>(
+        0.0,
+        min(place, q[0]),
+        max(min(place, q[1]), q[0]),
+        max(min(place, q[2]), q[1]),
+        max(min(place, q[3]), q[2]),
+        max(place, q[3]),
+        end,
+    );
+}
+
+// Share of a piece's length that lies before the share u of its steps.
+fn piece_share(u: f32, haze_depth: f32, rising: bool) -> f32 {
+    let squared = select(1.0 - (1.0 - u) * (1.0 - u), u * u, rising);
+    if haze_depth <= 1.0 {
+        return squared;
+    }
+    // Equal shares of 1 - e^{-haze_depth}.
+    return -log(1.0 - u * (1.0 - exp(-haze_depth))) / haze_depth;
 }

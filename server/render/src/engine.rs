@@ -13,7 +13,7 @@ use crate::{
         sky::{Sky, SkyInputs},
         sky_view::SkyView,
         tone::Tone,
-        transmittance::Transmittance,
+        transmittance::{SUN_STEPS, Transmittance},
     },
     screen::{PICTURE_BYTES, RADIANCE_BYTES, Screen},
     sunlight::direct_normal,
@@ -101,10 +101,10 @@ impl Engine {
         scene: &Scene,
         quality: Quality,
     ) -> Tables {
-        let air = AirUniform::new(&scene.planet, scene.atmosphere.as_ref());
+        let air = AirUniform::new(scene);
         let wanted = air.multiple > 0.0;
         let air = Part::new(&air);
-        let transmittance = transmittance.run(recorder, &air);
+        let transmittance = transmittance.run(recorder, &air, SUN_STEPS);
         let multi_scattering = multi_scattering.run(recorder, &air, &transmittance, quality, wanted);
         Tables {
             air,

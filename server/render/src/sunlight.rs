@@ -2,7 +2,7 @@
 
 use crate::{cpu::air::transmittance_to_space, uniforms::Standpoint};
 use std::f64::consts::PI;
-use welkin_scene::{Atmosphere, Scene};
+use welkin_scene::Scene;
 
 /// Strips across the disc, for a sun half below the horizon.
 const STRIPS: u32 = 9;
@@ -10,11 +10,6 @@ const STRIPS: u32 = 9;
 /// Irradiance from the disc on a plane that faces it, in R, G and B, W/m²: what the air and the horizon leave of it.
 /// The disc is taken as even; strips at heights cos φ have areas in proportion to sin²φ dφ.
 pub(crate) fn direct_normal(scene: &Scene, stand: &Standpoint) -> [f64; 3] {
-    let vacuum = Atmosphere {
-        density_factor: 0.0,
-        ..Atmosphere::default()
-    };
-    let air = scene.atmosphere.as_ref().unwrap_or(&vacuum);
     let centre = stand.up.cross(stand.sun).length().atan2(stand.up.dot(stand.sun));
     let radius = (scene.sun.angular_diameter_deg / 2.0).to_radians();
     let mut left = [0.0; 3];
@@ -22,7 +17,7 @@ pub(crate) fn direct_normal(scene: &Scene, stand: &Standpoint) -> [f64; 3] {
         let phi = PI * (f64::from(strip) + 0.5) / f64::from(STRIPS);
         let share = 2.0 / f64::from(STRIPS) * phi.sin().powi(2);
         let mu = (centre + radius * phi.cos()).cos();
-        let transmittance = transmittance_to_space(&scene.planet, air, stand.altitude_m, mu);
+        let transmittance = transmittance_to_space(scene, stand.altitude_m, mu);
         for (sum, t) in left.iter_mut().zip(transmittance) {
             *sum += share * t;
         }

@@ -3,7 +3,7 @@
 use crate::{camera::CameraUniform, colour};
 use encase::{ShaderSize, ShaderType, internal::WriteInto};
 use glam::{DVec3, UVec2, Vec2, Vec3};
-use welkin_scene::{Atmosphere, Exposure, Orders, Planet, Scene, Sun};
+use welkin_scene::{Atmosphere, Exposure, Haze, Orders, Scene, Sun};
 
 /// The bytes of one uniform: what a pass binds, and what its fingerprint is made of.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
@@ -42,49 +42,68 @@ pub(crate) fn narrow3(v: [f64; 3]) -> Vec3 {
 pub(crate) struct AirUniform {
     pub(crate) rayleigh_scattering_per_m: Vec3,
     pub(crate) rayleigh_inverse_height_per_m: f32,
-    pub(crate) ozone_absorption_per_m: Vec3,
-    pub(crate) ozone_centre_m: f32,
-    pub(crate) ground_albedo: Vec3,
-    pub(crate) ozone_inverse_half_width_per_m: f32,
-    pub(crate) mie_scattering_per_m: f32,
-    pub(crate) mie_extinction_per_m: f32,
+    pub(crate) rayleigh_extinction_per_m: Vec3,
     pub(crate) mie_inverse_height_per_m: f32,
+    pub(crate) mie_scattering_per_m: Vec3,
     pub(crate) mie_asymmetry: f32,
+    pub(crate) mie_extinction_per_m: Vec3,
+    pub(crate) ozone_centre_m: f32,
+    pub(crate) ozone_absorption_per_m: Vec3,
+    pub(crate) ozone_inverse_half_width_per_m: f32,
+    pub(crate) haze_scattering_per_m: Vec3,
+    pub(crate) haze_extinction_per_m: f32,
+    pub(crate) ground_albedo: Vec3,
+    pub(crate) haze_top_m: f32,
+    pub(crate) mie_moments: Vec2,
     pub(crate) radius_m: f32,
     pub(crate) top_m: f32,
-    pub(crate) mie_moments: Vec2,
     pub(crate) multiple: f32,
 }
 
 impl AirUniform {
-    pub(crate) fn new(planet: &Planet, atmosphere: Option<&Atmosphere>) -> Self {
+    pub(crate) fn new(scene: &Scene) -> Self {
+        let planet = &scene.planet;
         // Vacuum is air of no density.
         let vacuum = Atmosphere {
             density_factor: 0.0,
             ..Atmosphere::default()
         };
-        let air = atmosphere.unwrap_or(&vacuum);
+        let air = scene.atmosphere.as_ref().unwrap_or(&vacuum);
         let rayleigh = air.rayleigh.clone().unwrap_or_default();
         let mie = air.mie.clone().unwrap_or_default();
         let ozone = air.ozone.clone().unwrap_or_default();
         let share = |present: bool| if present { air.density_factor } else { 0.0 };
         let (with_rayleigh, with_mie) = (share(air.rayleigh.is_some()), share(air.mie.is_some()));
         let with_ozone = share(air.ozone.is_some());
+        let haze_extinction = scene.haze.as_ref().map_or(0.0, Haze::extinction);
+        let haze = scene.haze.clone().unwrap_or_default();
+        let both = |a: [f64; 3], b: [f64; 3], factor: f64| narrow3([0, 1, 2].map(|i| (a[i] + b[i]) * factor));
+        let none = [0.0; 3];
+        let (mie_scattering, mie_absorption) = (mie.scattering_per_m.rgb(), mie.absorption_per_m.rgb());
+        let scatters = air.density_factor > 0.0 || haze_extinction > 0.0;
         Self {
-            rayleigh_scattering_per_m: narrow3(rayleigh.scattering_per_m.map(|s| s * with_rayleigh)),
+            rayleigh_scattering_per_m: both(rayleigh.scattering_per_m, none, with_rayleigh),
             rayleigh_inverse_height_per_m: narrow(1.0 / rayleigh.scale_height_m),
-            ozone_absorption_per_m: narrow3(ozone.absorption_per_m.map(|s| s * with_ozone)),
-            ozone_centre_m: narrow(ozone.centre_m),
-            ground_albedo: narrow3(planet.ground_albedo),
-            ozone_inverse_half_width_per_m: narrow(1.0 / ozone.half_width_m),
-            mie_scattering_per_m: narrow(mie.scattering_per_m * with_mie),
-            mie_extinction_per_m: narrow((mie.scattering_per_m + mie.absorption_per_m) * with_mie),
+            rayleigh_extinction_per_m: both(
+                rayleigh.scattering_per_m,
+                rayleigh.absorption_per_m,
+                with_rayleigh,
+            ),
             mie_inverse_height_per_m: narrow(1.0 / mie.scale_height_m),
+            mie_scattering_per_m: both(mie_scattering, none, with_mie),
             mie_asymmetry: narrow(mie.asymmetry),
+            mie_extinction_per_m: both(mie_scattering, mie_absorption, with_mie),
+            ozone_centre_m: narrow(ozone.centre_m),
+            ozone_absorption_per_m: both(ozone.absorption_per_m, none, with_ozone),
+            ozone_inverse_half_width_per_m: narrow(1.0 / ozone.half_width_m),
+            haze_scattering_per_m: both(haze.albedo.rgb(), none, haze_extinction),
+            haze_extinction_per_m: narrow(haze_extinction),
+            ground_albedo: narrow3(planet.ground_albedo),
+            haze_top_m: narrow(haze.top_m),
+            mie_moments: cornette_shanks_moments(mie.asymmetry),
             radius_m: narrow(planet.radius_m),
             top_m: narrow(air.top_m),
-            mie_moments: cornette_shanks_moments(mie.asymmetry),
-            multiple: if air.orders == Orders::Multiple && air.density_factor > 0.0 {
+            multiple: if air.orders == Orders::Multiple && scatters {
                 1.0
             } else {
                 0.0
@@ -100,6 +119,12 @@ pub(crate) fn cornette_shanks_moments(g: f64) -> Vec2 {
     let p1 = k * (8.0 / 5.0 * g + 2.0 / 5.0 * g.powi(3));
     let p2 = k * (4.0 / 3.0 * g * g + 2.0 / 3.0 * (18.0 / 35.0 * g.powi(4) + 2.0 / 7.0 * g * g + 1.0 / 5.0));
     Vec2::new(narrow(p1), narrow(p2))
+}
+
+/// `Integral` of `transmittance.wgsl`.
+#[derive(Clone, Copy, Debug, ShaderType)]
+pub(crate) struct IntegralUniform {
+    pub(crate) steps: u32,
 }
 
 /// `Observer` of `lib/view_ray.wgsl`.

@@ -46,6 +46,9 @@ impl Check for Scene {
             ));
         }
         sun(self, at, problems);
+        haze(self, at, problems);
+        moon(self, at, problems);
+        airglow(self, at, problems);
     }
 }
 
@@ -130,5 +133,43 @@ fn sun(scene: &Scene, at: &str, problems: &mut Problems) {
             ));
         }
         Some(_) => {}
+    }
+}
+
+fn haze(scene: &Scene, at: &str, problems: &mut Problems) {
+    let Some(haze) = &scene.haze else { return };
+    if let (Some(_), Some(extinction_per_m)) = (haze.visibility_m, haze.extinction_per_m) {
+        problems.push(Problem::new(
+            format!("{at}/haze/extinction_per_m"),
+            &json!(extinction_per_m),
+            "left out where `visibility_m` is given: both say how dense the haze is".into(),
+        ));
+    }
+    if let Some(air) = &scene.atmosphere
+        && haze.top_m > air.top_m
+    {
+        problems.push(Problem::new(
+            format!("{at}/haze/top_m"),
+            &json!(haze.top_m),
+            format!("a number of metres no higher than the air's top, {}", number(air.top_m)),
+        ));
+    }
+}
+
+fn moon(scene: &Scene, at: &str, problems: &mut Problems) {
+    if let Some(position) = scene.moon.as_ref().and_then(|moon| moon.position.as_ref()) {
+        direction(position, &format!("{at}/moon/position"), problems);
+    }
+}
+
+fn airglow(scene: &Scene, at: &str, problems: &mut Problems) {
+    if let Some(airglow) = scene.atmosphere.as_ref().and_then(|air| air.airglow.as_ref())
+        && airglow.top_m <= airglow.base_m
+    {
+        problems.push(Problem::new(
+            format!("{at}/atmosphere/airglow/top_m"),
+            &json!(airglow.top_m),
+            format!("a number of metres above `base_m`, {}", number(airglow.base_m)),
+        ));
     }
 }

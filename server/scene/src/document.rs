@@ -1,6 +1,9 @@
 //! The scene document.
 
-use crate::{atmosphere::Atmosphere, camera::Camera, display::Display, planet::Planet, sun::Sun};
+use crate::{
+    atmosphere::Atmosphere, camera::Camera, display::Display, haze::Haze, moon::Moon, planet::Planet, stars::Stars,
+    sun::Sun,
+};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -15,10 +18,16 @@ pub struct Scene {
     pub camera: Camera,
     /// The sun.
     pub sun: Sun,
+    /// The moon; `null` for none.
+    pub moon: Option<Moon>,
+    /// The stars; `null` for none.
+    pub stars: Option<Stars>,
     /// The ground's sphere.
     pub planet: Planet,
     /// The air; `null` is vacuum.
     pub atmosphere: Option<Atmosphere>,
+    /// Haze or fog on the ground, in addition to the air's aerosols; `null` is none.
+    pub haze: Option<Haze>,
     /// From radiance to a picture.
     pub display: Display,
 }
@@ -29,8 +38,11 @@ impl Default for Scene {
             time_s: 0.0,
             camera: Camera::default(),
             sun: Sun::default(),
+            moon: Some(Moon::default()),
+            stars: Some(Stars::default()),
             planet: Planet::default(),
             atmosphere: Some(Atmosphere::default()),
+            haze: None,
             display: Display::default(),
         }
     }

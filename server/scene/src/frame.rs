@@ -39,13 +39,18 @@ impl Default for FrameRequest {
     }
 }
 
+/// As [`whole`], or null.
+pub(crate) fn whole_or_null<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Option<u32>, D::Error> {
+    #[derive(Deserialize)]
+    struct Whole(#[serde(deserialize_with = "whole")] u32);
+    Ok(Option::<Whole>::deserialize(deserializer)?.map(|Whole(number)| number))
+}
+
 /// Reads a whole number however JSON writes it: 1280, 1280.0 or 1.28e3 are one `integer` in JSON Schema.
 fn whole<'de, D: Deserializer<'de>>(deserializer: D) -> Result<u32, D::Error> {
     let number = f64::deserialize(deserializer)?;
     if number.fract() != 0.0 || !(0.0..=f64::from(u32::MAX)).contains(&number) {
-        return Err(D::Error::custom(format!(
-            "{number} is not a whole number of pixels"
-        )));
+        return Err(D::Error::custom(format!("{number} is not a whole number")));
     }
     #[allow(
         clippy::cast_possible_truncation,

@@ -5,14 +5,20 @@
 //! World frame: x east, y north, z up, metres, origin on the ground below the observer's home. Azimuths are
 //! clockwise from north, elevations up from the horizon.
 
+pub mod airglow;
 pub mod atmosphere;
+pub mod bands;
 pub mod camera;
+pub mod celestial;
 mod check;
 pub mod direction;
 pub mod display;
 pub mod document;
 mod explain;
 pub mod frame;
+pub mod haze;
+pub mod lunar;
+pub mod moon;
 pub mod observer;
 mod parse;
 pub mod planet;
@@ -23,18 +29,26 @@ pub mod renderer;
 pub mod schema;
 mod shape;
 mod solar;
+pub mod stars;
 pub mod sun;
 
+pub use airglow::Airglow;
 pub use atmosphere::{Atmosphere, Method, Mie, Orders, Ozone, Rayleigh};
+pub use bands::Bands;
 pub use camera::{Camera, FisheyeMapping, Projection};
+pub use celestial::Firmament;
 pub use direction::Direction;
 pub use display::{Display, Exposure, ToneCurve};
 pub use document::Scene;
 pub use frame::{Format, FrameRequest, Quality};
+pub use haze::Haze;
+pub use lunar::MoonSeen;
+pub use moon::{Moon, MoonPlace};
 pub use observer::Observer;
 pub use planet::Planet;
 pub use preset::{Preset, preset, presets};
 pub use probe::{Irradiance, ProbeAnswer, ProbeRequest, SunPlace};
 pub use problem::{Problem, SceneError};
 pub use schema::{frame_request_schema, probe_request_schema, scene_schema};
+pub use stars::{Orientation, Stars};
 pub use sun::{Sun, SunPosition};

@@ -2,6 +2,7 @@
 
 use crate::{
     atmosphere::{Atmosphere, Mie, Orders, Rayleigh},
+    bands::Bands,
     camera::{Camera, Projection},
     direction::Direction,
     display::{Display, Exposure, ToneCurve},
@@ -139,10 +140,11 @@ fn complutense() -> Scene {
             rayleigh: Some(Rayleigh {
                 scattering_per_m: [5.8e-6, 13.5e-6, 33.1e-6],
                 scale_height_m: 7_994.0,
+                ..Rayleigh::default()
             }),
             mie: Some(Mie {
-                scattering_per_m: MIE_SCATTERING_PER_M,
-                absorption_per_m: 0.1 * MIE_SCATTERING_PER_M,
+                scattering_per_m: Bands::Grey(MIE_SCATTERING_PER_M),
+                absorption_per_m: Bands::Grey(0.1 * MIE_SCATTERING_PER_M),
                 scale_height_m: 1_200.0,
                 asymmetry: 0.76,
             }),

@@ -88,7 +88,13 @@ pub(crate) fn describe(root: &Value, schema: &Value, pointer: &str) -> String {
             .collect();
         return each.join(", or ");
     }
-    match schema["type"].as_str().unwrap_or_default() {
+    let names = schema["type"].as_array().map(Vec::as_slice).unwrap_or_default();
+    let nullable = names.iter().any(|name| name == "null");
+    let first = names
+        .iter()
+        .filter_map(Value::as_str)
+        .find(|name| *name != "null");
+    let holds = match first.or_else(|| schema["type"].as_str()).unwrap_or_default() {
         "null" => "null".into(),
         "boolean" => "true or false".into(),
         "string" if schema["format"] == "date-time" => "a date and time as in RFC 3339".into(),
@@ -97,7 +103,8 @@ pub(crate) fn describe(root: &Value, schema: &Value, pointer: &str) -> String {
         "number" => format!("a number{}", range(schema, pointer)),
         "array" => array(root, schema, pointer),
         _ => format!("an object with {}", fields(&members(schema))),
-    }
+    };
+    holds + if nullable { ", or null" } else { "" }
 }
 
 /// "the fields `a`, `b`"

@@ -1,13 +1,13 @@
 //! Twin of `lib/scattering.wgsl` and of what `probe.wgsl` makes of it, by brute force.
 
 use super::{
-    air::{extinction_per_m, transmittance_to_space},
+    air::{air, coefficients, transmittance_to_space},
     geometry::{Ray, in_shadow},
     phase::{cornette_shanks, rayleigh},
 };
 use glam::DVec3;
 use std::f64::consts::PI;
-use welkin_scene::{Atmosphere, Planet};
+use welkin_scene::{Atmosphere, Scene};
 
 /// What is seen in one direction, light scattered once and the ground lit by the sun alone, for a sun of unit
 /// irradiance.
@@ -26,8 +26,9 @@ const GAUSS: [(f64, f64); 3] = [
 ];
 
 /// Lengths between which density, light and shadow run evenly: the ray's stretch of air, cut at its lowest point, at
-/// the edges of the planet's shadow and at the ozone layer's edges and centre.
-fn cuts(ray: &Ray, planet: &Planet, air: &Atmosphere, sun: DVec3) -> Vec<f64> {
+/// the edges of the planet's shadow, at the ozone layer's edges and centre and where the haze ends.
+fn cuts(ray: &Ray, scene: &Scene, air: &Atmosphere, sun: DVec3) -> Vec<f64> {
+    let planet = &scene.planet;
     let Some((enters, leaves)) = ray.crossing(planet.radius_m + air.top_m) else {
         return Vec::new();
     };
@@ -42,6 +43,10 @@ fn cuts(ray: &Ray, planet: &Planet, air: &Atmosphere, sun: DVec3) -> Vec<f64> {
             let crossing = ray.crossing(planet.radius_m + altitude_m.max(0.0));
             cuts.extend(crossing.iter().flat_map(|(a, b)| [*a, *b]));
         }
+    }
+    if let Some(haze) = &scene.haze {
+        let crossing = ray.crossing(planet.radius_m + haze.top_m);
+        cuts.extend(crossing.iter().flat_map(|(a, b)| [*a, *b]));
     }
     // The shadow's edges by bisection between samples that differ.
     let dark = |t: f64| in_shadow(planet.radius_m, ray.at(t), sun);
@@ -63,27 +68,19 @@ fn cuts(ray: &Ray, planet: &Planet, air: &Atmosphere, sun: DVec3) -> Vec<f64> {
 }
 
 /// The light scattered once along a ray from an altitude over the pole z.
-pub(crate) fn seen(planet: &Planet, air: &Atmosphere, altitude_m: f64, view: DVec3, sun: DVec3) -> Seen {
+pub(crate) fn seen(scene: &Scene, altitude_m: f64, view: DVec3, sun: DVec3) -> Seen {
+    let planet = &scene.planet;
+    let air = &air(scene);
     let ray = Ray::new(planet.radius_m, altitude_m, view);
     let cos = view.dot(sun);
-    let scattering = |h: f64| {
-        let mut sum = [0.0; 3];
-        if let Some(molecules) = &air.rayleigh {
-            let density = air.density_factor * (-h / molecules.scale_height_m).exp() * rayleigh(cos);
-            sum = [0, 1, 2].map(|i| sum[i] + density * molecules.scattering_per_m[i]);
-        }
-        if let Some(mie) = &air.mie {
-            let density = air.density_factor * (-h / mie.scale_height_m).exp();
-            sum = sum.map(|s| s + density * mie.scattering_per_m * cornette_shanks(cos, mie.asymmetry));
-        }
-        sum
-    };
+    let asymmetry = air.mie.clone().unwrap_or_default().asymmetry;
+    let phases = (rayleigh(cos), cornette_shanks(cos, asymmetry));
     let sunlight = |point: DVec3, h: f64| {
-        transmittance_to_space(planet, air, h, (point.dot(sun) / point.length()).clamp(-1.0, 1.0))
+        transmittance_to_space(scene, h, (point.dot(sun) / point.length()).clamp(-1.0, 1.0))
     };
     let mut depth = [0.0; 3];
     let mut radiance = [0.0; 3];
-    let cuts = cuts(&ray, planet, air, sun);
+    let cuts = cuts(&ray, scene, air, sun);
     for piece in cuts.windows(2) {
         let (from, to) = (piece[0], piece[1]);
         let middle = ray.at(0.5 * (from + to));
@@ -94,7 +91,7 @@ pub(crate) fn seen(planet: &Planet, air: &Atmosphere, altitude_m: f64, view: DVe
         let altitude_m = |t: f64| (ray.at(t).length() - planet.radius_m).max(0.0);
         let depth_between = |a: f64, b: f64| {
             GAUSS.iter().fold([0.0; 3], |sum: [f64; 3], (x, w)| {
-                let extinction = extinction_per_m(air, altitude_m(a + x * (b - a)));
+                let extinction = coefficients(scene, air, altitude_m(a + x * (b - a))).extinction_per_m;
                 [0, 1, 2].map(|i| sum[i] + w * (b - a) * extinction[i])
             })
         };
@@ -105,7 +102,8 @@ pub(crate) fn seen(planet: &Planet, air: &Atmosphere, altitude_m: f64, view: DVe
                 let t = start + x * (end - start);
                 let before = depth_between(start, t);
                 let h = altitude_m(t);
-                let source = scattering(h);
+                let c = coefficients(scene, air, h);
+                let source = [0, 1, 2].map(|i| phases.0 * c.rayleigh_per_m[i] + phases.1 * c.mie_per_m[i]);
                 let sun_there = if dark { [0.0; 3] } else { sunlight(ray.at(t), h) };
                 for i in 0..3 {
                     let left = (-depth[i] - before[i]).exp();

@@ -22,12 +22,11 @@ fn tent(ozone: &Ozone, h: f64) -> f64 {
 fn closed_form(air: &Atmosphere) -> [f64; 3] {
     let exponential = |scale_m: f64| scale_m * (1.0 - (-air.top_m / scale_m).exp());
     [0, 1, 2].map(|i| {
-        let rayleigh = air
-            .rayleigh
-            .as_ref()
-            .map_or(0.0, |r| r.scattering_per_m[i] * exponential(r.scale_height_m));
+        let rayleigh = air.rayleigh.as_ref().map_or(0.0, |r| {
+            (r.scattering_per_m[i] + r.absorption_per_m[i]) * exponential(r.scale_height_m)
+        });
         let mie = air.mie.as_ref().map_or(0.0, |m| {
-            (m.scattering_per_m + m.absorption_per_m) * exponential(m.scale_height_m)
+            (m.scattering_per_m.rgb()[i] + m.absorption_per_m.rgb()[i]) * exponential(m.scale_height_m)
         });
         let ozone = air
             .ozone

@@ -5,20 +5,23 @@ use crate::{
     cpu::air::transmittance_to_space,
     gpu::Gpu,
     kernel::{Bind, Kernel, Recorder},
-    passes::{probe::Sight, transmittance::Transmittance},
+    passes::{
+        probe::Sight,
+        transmittance::{SUN_STEPS, Transmittance},
+    },
     quadrature::gauss_legendre,
     shader,
     uniforms::{AirUniform, OrderUniform, Part},
 };
 use glam::DVec3;
 use std::f64::consts::{PI, TAU};
-use welkin_scene::{Atmosphere, Direction, Mie, Planet, Scene, SunPosition};
+use welkin_scene::{Atmosphere, Bands, Direction, Mie, Planet, Scene, SunPosition};
 
 /// Air that takes nothing: aerosols without absorption, no ozone.
 fn conservative() -> Atmosphere {
     Atmosphere {
         mie: Some(Mie {
-            absorption_per_m: 0.0,
+            absorption_per_m: Bands::Grey(0.0),
             ..Mie::default()
         }),
         ozone: None,
@@ -26,15 +29,20 @@ fn conservative() -> Atmosphere {
     }
 }
 
-fn white_planet() -> Planet {
-    Planet {
-        ground_albedo: [1.0; 3],
-        ..Planet::default()
+fn white_planet(air: Atmosphere) -> Scene {
+    Scene {
+        planet: Planet {
+            ground_albedo: [1.0; 3],
+            ..Planet::default()
+        },
+        atmosphere: Some(air),
+        ..Scene::default()
     }
 }
 
 /// ∫ of the transmittance to space over the directions in which space is seen, and the same times max(mu, 0).
-fn open_sky(planet: &Planet, air: &Atmosphere, altitude_m: f64) -> ([f64; 3], [f64; 3]) {
+fn open_sky(scene: &Scene, altitude_m: f64) -> ([f64; 3], [f64; 3]) {
+    let planet = &scene.planet;
     let r = planet.radius_m + altitude_m;
     let horizon = -(altitude_m * (2.0 * planet.radius_m + altitude_m)).sqrt() / r;
     let (mut all, mut falling) = ([0.0; 3], [0.0; 3]);
@@ -42,7 +50,7 @@ fn open_sky(planet: &Planet, air: &Atmosphere, altitude_m: f64) -> ([f64; 3], [f
         // Crowded at the horizon.
         let mu = horizon + (1.0 - horizon) * x * x;
         let solid_angle_sr = TAU * (1.0 - horizon) * 2.0 * x * weight;
-        let left = transmittance_to_space(planet, air, altitude_m, mu);
+        let left = transmittance_to_space(scene, altitude_m, mu);
         for i in 0..3 {
             all[i] += solid_angle_sr * left[i];
             falling[i] += solid_angle_sr * left[i] * mu.max(0.0);
@@ -110,10 +118,10 @@ fn every_ray_through_a_white_furnace_is_white() {
         ..conservative()
     };
     for air in [conservative(), thick] {
-        let part = Part::new(&AirUniform::new(&white_planet(), Some(&air)));
+        let part = Part::new(&AirUniform::new(&white_planet(air)));
         let light = even_table(gpu, [16, 16], &[even_moment() as f32, 0.0, 0.0, 0.0, 0.0, 0.0]);
         let mut recorder = Recorder::new(gpu);
-        let transmittance = Transmittance::new(gpu).run(&mut recorder, &part);
+        let transmittance = Transmittance::new(gpu).run(&mut recorder, &part, SUN_STEPS);
         recorder.finish(&[], |_| ()).unwrap();
         let uniform = part.upload(gpu, "air");
         let binds = [
@@ -135,7 +143,7 @@ fn every_ray_through_a_white_furnace_is_white() {
         let statements = "let ground = distance_to_sphere(air.radius_m, a.x, a.y);
             let length = select(distance_to_top(air.radius_m, air.top_m, a.x, a.y), ground, ground >= 0.0);
             let ray = AirRay(a.x, a.y, a.z, a.y * a.z, length);
-            let s = scatter_along(air, ray, transmittance_table, moments_before, linear_clamp, u32(a.w), false, true);
+            let s = scatter_along(air, ray, transmittance_table, moments_before, linear_clamp, March(false, true, false, u32(a.w), 0u));
             x = vec4f(s.multiple + exp(-s.optical_depth), 0.0);";
         for (row, found) in rows.iter().zip(evaluate(
             gpu,
@@ -160,8 +168,8 @@ fn every_ray_through_a_white_furnace_is_white() {
 fn an_order_of_scattering_keeps_what_does_not_leave_for_space() {
     let engine = engine();
     let gpu = &engine.gpu;
-    let (planet, air) = (white_planet(), conservative());
-    let part = Part::new(&AirUniform::new(&planet, Some(&air)));
+    let scene = white_planet(conservative());
+    let part = Part::new(&AirUniform::new(&scene));
     let (width, height, moments) = (16_u32, 24_u32, 6_u32);
     let mut layers = [0.0; 6];
     layers[0] = even_moment() as f32;
@@ -172,7 +180,7 @@ fn an_order_of_scattering_keeps_what_does_not_leave_for_space() {
         gpu.table("ground", width, 1, 1),
     );
     let mut recorder = Recorder::new(gpu);
-    let transmittance = Transmittance::new(gpu).run(&mut recorder, &part);
+    let transmittance = Transmittance::new(gpu).run(&mut recorder, &part, SUN_STEPS);
     let air_buffer = part.upload(gpu, "air");
     let order = Part::new(&OrderUniform { last: 0, steps: 14 }).upload(gpu, "order");
     let cells = 2 * u64::from((moments + 1) * width * height);
@@ -194,13 +202,13 @@ fn an_order_of_scattering_keeps_what_does_not_leave_for_space() {
     let (mut worst, mut worst_ground) = (0.0_f64, 0.0_f64);
     for (i, texel) in read_table(gpu, &new_light, 0).iter().enumerate() {
         let y = (i as u32 / width) as f64 / f64::from(height - 1);
-        let (open, _) = open_sky(&planet, &air, y * y * air.top_m);
+        let (open, _) = open_sky(&scene, y * y * conservative().top_m);
         for c in 0..3 {
             let total = f64::from(texel[c]) / even_moment() + open[c] / (4.0 * PI);
             worst = worst.max((total - 1.0).abs());
         }
     }
-    let (_, falling) = open_sky(&planet, &air, 0.0);
+    let (_, falling) = open_sky(&scene, 0.0);
     for texel in read_table(gpu, &new_ground, 0) {
         for c in 0..3 {
             let total = (f64::from(texel[c]) + falling[c]) / PI;
@@ -217,14 +225,16 @@ fn an_order_of_scattering_keeps_what_does_not_leave_for_space() {
 /// π r² E. Both contain the sunlight that passes through the air over the limb unscattered: it is left out of both.
 #[test]
 fn a_white_planet_sends_back_what_it_receives() {
-    let (planet, air) = (white_planet(), conservative());
+    let air = conservative();
+    let white = white_planet(air.clone());
+    let planet = &white.planet;
     let r = planet.radius_m + air.top_m;
     // The direct light over the limb: rings of impact height b at the closest point.
     let mut passed = [0.0; 3];
     for (x, weight) in gauss_legendre(64) {
         let closest_m = x * air.top_m;
         let b = planet.radius_m + closest_m;
-        let one_way = transmittance_to_space(&planet, &air, closest_m, 0.0);
+        let one_way = transmittance_to_space(&white, closest_m, 0.0);
         for i in 0..3 {
             passed[i] += TAU * b * weight * air.top_m * one_way[i].powi(2);
         }
@@ -237,11 +247,7 @@ fn a_white_planet_sends_back_what_it_receives() {
         for (x, weight) in &polar {
             let mu_s = half * x * x;
             let ring_m2 = TAU * r * r * 2.0 * x * weight;
-            let mut scene = Scene {
-                planet: planet.clone(),
-                atmosphere: Some(air.clone()),
-                ..Scene::default()
-            };
+            let mut scene = white.clone();
             scene.camera.position_m = [0.0, 0.0, air.top_m];
             scene.sun.irradiance_w_m2 = [1.0; 3];
             scene.sun.position =

@@ -4,7 +4,8 @@ use crate::{
     camera::CameraUniform,
     shader::{self, Shader},
     uniforms::{
-        AirUniform, MeterUniform, ObserverUniform, OrderUniform, Part, TileUniform, ToneUniform, ViewUniform,
+        AirUniform, IntegralUniform, MeterUniform, ObserverUniform, OrderUniform, Part, TileUniform,
+        ToneUniform, ViewUniform,
     },
 };
 use glam::{UVec2, Vec2, Vec3};
@@ -123,17 +124,21 @@ fn air() {
         AirUniform {
             rayleigh_scattering_per_m: vec3,
             rayleigh_inverse_height_per_m: f32,
-            ozone_absorption_per_m: vec3,
-            ozone_centre_m: f32,
-            ground_albedo: vec3,
-            ozone_inverse_half_width_per_m: f32,
-            mie_scattering_per_m: f32,
-            mie_extinction_per_m: f32,
+            rayleigh_extinction_per_m: vec3,
             mie_inverse_height_per_m: f32,
+            mie_scattering_per_m: vec3,
             mie_asymmetry: f32,
+            mie_extinction_per_m: vec3,
+            ozone_centre_m: f32,
+            ozone_absorption_per_m: vec3,
+            ozone_inverse_half_width_per_m: f32,
+            haze_scattering_per_m: vec3,
+            haze_extinction_per_m: f32,
+            ground_albedo: vec3,
+            haze_top_m: f32,
+            mie_moments: vec2,
             radius_m: f32,
             top_m: f32,
-            mie_moments: vec2,
             multiple: f32,
         }
     );
@@ -220,6 +225,9 @@ fn tile_order_and_meter() {
     );
     check(&[&shader::MULTI_SCATTERING], "Order", &part, &f);
     let mut f = Filled::default();
+    let part = filled!(f, IntegralUniform { steps: u32 });
+    check(&[&shader::TRANSMITTANCE], "Integral", &part, &f);
+    let mut f = Filled::default();
     let part = filled!(
         f,
         MeterUniform {
@@ -275,6 +283,7 @@ fn every_uniform_is_tested() {
     }
     let expected = [
         ("transmittance", "Air"),
+        ("transmittance", "Integral"),
         ("multi_scattering", "Air"),
         ("multi_scattering", "Order"),
         ("sky_view", "Air"),

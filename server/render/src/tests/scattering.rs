@@ -58,7 +58,7 @@ fn worst(air: &Atmosphere, altitudes_m: &[f64], suns_deg: &[f64]) -> (f64, Strin
                 .collect();
             let found = engine().probe(&scene, &sights).unwrap();
             for (view, found) in views.iter().zip(found) {
-                let expected = seen(&scene.planet, air, *altitude_m, *view, sun);
+                let expected = seen(&scene, *altitude_m, *view, sun);
                 for i in 0..3 {
                     // The product promises 1e-6 /sr besides the share; a tenth of it is a tenth of the darkest twilight
                     // that an 8-bit picture shows beside its brightest part.

@@ -1,10 +1,12 @@
 //! The scene document through its public interface.
 #![allow(clippy::unwrap_used, clippy::expect_used, reason = "tests fail by panicking")]
 
+mod air;
 mod documents;
 mod faults;
 mod geometry;
 mod hostile;
+mod night;
 mod properties;
 mod schemas;
 mod sun;

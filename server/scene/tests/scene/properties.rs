@@ -5,19 +5,21 @@ use proptest::{collection::vec, option, prelude::*, sample::select};
 use serde_json::{Value, json};
 use std::sync::LazyLock;
 use welkin_scene::{
-    Atmosphere, Camera, Direction, Display, Exposure, FisheyeMapping, FrameRequest, Method, Mie, Orders,
-    Ozone, Planet, ProbeRequest, Projection, Rayleigh, Scene, SceneError, Sun, SunPosition, ToneCurve,
-    presets, scene_schema, sun::TimeAndPlace,
+    Atmosphere, Bands, Camera, Direction, Display, Exposure, FisheyeMapping, FrameRequest, Haze, Method, Mie,
+    Orders, Ozone, Planet, ProbeRequest, Projection, Rayleigh, Scene, SceneError, Sun, SunPosition,
+    ToneCurve, presets, scene_schema, sun::TimeAndPlace,
 };
 
 static SCHEMA: LazyLock<Validator> =
     LazyLock::new(|| jsonschema::draft202012::new(&scene_schema()).expect("a derived schema is valid"));
 
 /// Where the reader refuses what the schema lets pass.
-const BEYOND_THE_SCHEMA: [&str; 6] = [
+const BEYOND_THE_SCHEMA: [&str; 8] = [
     "/camera/direction",
     "/camera/position_m",
     "/camera/projection/fov_deg",
+    "/haze/extinction_per_m",
+    "/haze/top_m",
     "/sun/position",
     "/sun/position/time",
     "/time_s",
@@ -200,15 +202,38 @@ fn sun() -> impl Strategy<Value = Sun> {
         )
 }
 
+fn bands(most: f64) -> impl Strategy<Value = Bands> {
+    prop_oneof![
+        (0.0..=most).prop_map(Bands::Grey),
+        prop::array::uniform3(0.0..=most).prop_map(Bands::Rgb),
+    ]
+}
+
+fn haze() -> impl Strategy<Value = Haze> {
+    let density = prop_oneof![
+        option::of(50.0..=1e6).prop_map(|visibility_m| (visibility_m, None)),
+        (0.0..=0.1).prop_map(|extinction_per_m| (None, Some(extinction_per_m))),
+    ];
+    (density, 1.0..=1e3, bands(1.0)).prop_map(|((visibility_m, extinction_per_m), top_m, albedo)| Haze {
+        visibility_m,
+        extinction_per_m,
+        top_m,
+        albedo,
+    })
+}
+
 fn atmosphere() -> impl Strategy<Value = Atmosphere> {
-    let rayleigh =
-        (prop::array::uniform3(0.0..=0.1), 10.0..=1e5).prop_map(|(scattering_per_m, scale_height_m)| {
-            Rayleigh {
-                scattering_per_m,
-                scale_height_m,
-            }
+    let rayleigh = (
+        prop::array::uniform3(0.0..=0.1),
+        prop::array::uniform3(0.0..=0.1),
+        10.0..=1e5,
+    )
+        .prop_map(|(scattering_per_m, absorption_per_m, scale_height_m)| Rayleigh {
+            scattering_per_m,
+            absorption_per_m,
+            scale_height_m,
         });
-    let mie = (0.0..=0.1, 0.0..=0.1, 10.0..=1e5, -0.999..=0.999).prop_map(
+    let mie = (bands(0.1), bands(0.1), 10.0..=1e5, -0.999..=0.999).prop_map(
         |(scattering_per_m, absorption_per_m, scale_height_m, asymmetry)| Mie {
             scattering_per_m,
             absorption_per_m,
@@ -223,24 +248,32 @@ fn atmosphere() -> impl Strategy<Value = Atmosphere> {
             half_width_m,
         },
     );
+    let methods = select(vec![Method::Nested, Method::Table, Method::Lut]);
     let orders = select(vec![Orders::Single, Orders::Multiple]);
+    let steps = || option::of(4_u32..=256);
     (
-        orders,
+        (methods, steps(), steps(), orders),
         1e3..=1e6,
         0.0..=100.0,
         option::of(rayleigh),
         option::of(mie),
         option::of(ozone),
+        option::of(night::airglow()),
     )
         .prop_map(
-            |(orders, top_m, density_factor, rayleigh, mie, ozone)| Atmosphere {
-                method: Method::Lut,
-                orders,
-                top_m,
-                density_factor,
-                rayleigh,
-                mie,
-                ozone,
+            |((method, view_steps, sun_steps, orders), top_m, density_factor, rayleigh, mie, ozone, airglow)| {
+                Atmosphere {
+                    method,
+                    view_steps,
+                    sun_steps,
+                    orders,
+                    top_m,
+                    density_factor,
+                    rayleigh,
+                    mie,
+                    ozone,
+                    airglow,
+                }
             },
         )
 }
@@ -273,12 +306,15 @@ prop_compose! {
         time_s in -1e9..=1e9,
         camera in camera(),
         sun in sun(),
+        moon in option::of(night::moon()),
+        stars in option::of(night::stars()),
         radius_m in 1e5..=1e8,
         ground_albedo in prop::array::uniform3(0.0..=1.0),
         atmosphere in option::of(atmosphere()),
+        haze in option::of(haze()),
         display in display(),
     ) -> Scene {
-        Scene { time_s, camera, sun, planet: Planet { radius_m, ground_albedo }, atmosphere, display }
+        Scene { time_s, camera, sun, moon, stars, planet: Planet { radius_m, ground_albedo }, atmosphere, haze, display }
     }
 }
 
