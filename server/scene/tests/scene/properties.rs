@@ -258,7 +258,7 @@ fn atmosphere() -> impl Strategy<Value = Atmosphere> {
         option::of(rayleigh),
         option::of(mie),
         option::of(ozone),
-        option::of(night::airglow()),
+        option::of(crate::night::airglow()),
     )
         .prop_map(
             |((method, view_steps, sun_steps, orders), top_m, density_factor, rayleigh, mie, ozone, airglow)| {
@@ -306,8 +306,7 @@ prop_compose! {
         time_s in -1e9..=1e9,
         camera in camera(),
         sun in sun(),
-        moon in option::of(night::moon()),
-        stars in option::of(night::stars()),
+        (moon, stars) in (option::of(crate::night::moon()), option::of(crate::night::stars())),
         radius_m in 1e5..=1e8,
         ground_albedo in prop::array::uniform3(0.0..=1.0),
         atmosphere in option::of(atmosphere()),
