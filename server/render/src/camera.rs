@@ -6,6 +6,23 @@ use glam::{DVec3, UVec2, Vec2, Vec3};
 use std::f64::consts::PI;
 use welkin_scene::{Camera, Direction, FisheyeMapping, Projection};
 
+/// Right, up and forward: unit vectors across the picture and into it.
+pub(crate) fn axes(camera: &Camera) -> [DVec3; 3] {
+    let forward = DVec3::from_array(camera.direction.unit());
+    // The right edge lies a quarter turn clockwise from the azimuth; so a camera that tilts through the zenith does
+    // not spin. A vector straight up or down has no azimuth and counts as north.
+    let azimuth = match camera.direction {
+        Direction::Angles(angles) => angles.azimuth_deg,
+        vector @ Direction::Vector(_) => vector.to_angles().azimuth_deg,
+    };
+    let (sin, cos) = azimuth.to_radians().sin_cos();
+    let right = DVec3::new(cos, -sin, 0.0);
+    let up = right.cross(forward);
+    let (sin, cos) = camera.roll_deg.to_radians().sin_cos();
+    // The picture turns clockwise as the camera turns the other way.
+    [right * cos + up * sin, up * cos - right * sin, forward]
+}
+
 /// `Camera` of `lib/camera.wgsl`.
 #[derive(Clone, Debug, ShaderType)]
 pub(crate) struct CameraUniform {
@@ -20,19 +37,7 @@ pub(crate) struct CameraUniform {
 
 impl CameraUniform {
     pub(crate) fn new(camera: &Camera, size_px: UVec2) -> Self {
-        let forward = DVec3::from_array(camera.direction.unit());
-        // The right edge lies a quarter turn clockwise from the azimuth; so a camera that tilts through the zenith does
-        // not spin. A vector straight up or down has no azimuth and counts as north.
-        let azimuth = match camera.direction {
-            Direction::Angles(angles) => angles.azimuth_deg,
-            vector @ Direction::Vector(_) => vector.to_angles().azimuth_deg,
-        };
-        let (sin, cos) = azimuth.to_radians().sin_cos();
-        let right = DVec3::new(cos, -sin, 0.0);
-        let up = right.cross(forward);
-        let (sin, cos) = camera.roll_deg.to_radians().sin_cos();
-        // The picture turns clockwise as the camera turns the other way.
-        let (right, up) = (right * cos + up * sin, up * cos - right * sin);
+        let [right, up, forward] = axes(camera);
         let (width, height) = (f64::from(size_px.x), f64::from(size_px.y));
         let (projection, half_field, pixel_angle) = match camera.projection {
             Projection::Perspective { vertical_fov_deg } => {

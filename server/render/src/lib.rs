@@ -4,6 +4,7 @@
 //! until what it was made from changes. One thread owns the device ([`renderer`]).
 
 mod camera;
+mod catalogue;
 mod colour;
 mod cpu;
 mod engine;
@@ -12,13 +13,17 @@ mod frame_job;
 mod gpu;
 mod kept_frames;
 mod kernel;
+mod lens;
 mod memo;
+mod moon_face;
+mod moonlight;
 mod passes;
 mod probe_job;
 mod quadrature;
 mod renderer;
 mod screen;
 mod shader;
+mod starfield;
 mod sunlight;
 #[cfg(test)]
 mod tests;

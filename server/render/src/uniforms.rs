@@ -1,5 +1,7 @@
 //! From the scene, in user units, to the structures that the shaders read. All conversion stands here.
 
+pub(crate) mod night;
+
 use crate::{camera::CameraUniform, colour};
 use encase::{ShaderSize, ShaderType, internal::WriteInto};
 use glam::{DVec3, UVec2, Vec2, Vec3};

@@ -6,6 +6,7 @@ pub(crate) mod multi_scattering;
 pub(crate) mod probe;
 pub(crate) mod sky;
 pub(crate) mod sky_view;
+pub(crate) mod stars;
 pub(crate) mod tone;
 pub(crate) mod transmittance;
 

@@ -13,6 +13,7 @@ mod furnace;
 mod geometry;
 mod half_tables;
 mod layout;
+mod lens;
 mod phase;
 mod scattering;
 mod tables;

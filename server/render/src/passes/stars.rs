@@ -1,0 +1,125 @@
+//! The stars, added to a tile of the picture.
+
+use super::Table;
+use crate::{
+    gpu::Gpu,
+    kernel::{Bind, Kernel, Recorder},
+    lens::Lens,
+    memo::{Fingerprint, Memo},
+    shader,
+    starfield::{Glint, Screen, glints, within},
+    uniforms::{Part, TileUniform, night::StretchUniform},
+};
+use bytemuck::Zeroable;
+use glam::UVec2;
+use std::sync::Arc;
+use welkin_scene::{Camera, Firmament, Stars};
+
+pub(crate) struct StarsPass {
+    kernel: Kernel,
+    memo: Memo<Starfield>,
+}
+
+/// The stars of one picture, on the host and on the device.
+pub(crate) struct Starfield {
+    glints: Vec<Glint>,
+    buffer: wgpu::Buffer,
+    width_px: u32,
+    made_from: Fingerprint,
+}
+
+/// A picture's stars, and how far they are out.
+#[derive(Clone)]
+pub(crate) struct StarsOut {
+    pub(crate) field: Arc<Starfield>,
+    pub(crate) out: f32,
+}
+
+impl StarsOut {
+    pub(crate) fn fingerprint(&self) -> Fingerprint {
+        Fingerprint::of((self.field.made_from, self.out.to_bits()))
+    }
+}
+
+/// What the pass reads beside the stars.
+#[derive(Clone, Copy)]
+pub(crate) struct StarsInputs<'a> {
+    pub(crate) air: &'a Part,
+    pub(crate) view: &'a Part,
+    pub(crate) transmittance: &'a Table,
+}
+
+impl StarsPass {
+    pub(crate) fn new(gpu: &Gpu) -> Self {
+        Self {
+            kernel: Kernel::new(gpu, &shader::STARS),
+            memo: Memo::new(4),
+        }
+    }
+
+    /// The stars as a camera sees them from above the air, without those that the `screens` hide.
+    pub(crate) fn field(
+        &mut self,
+        gpu: &Gpu,
+        stars: &Stars,
+        firmament: &Firmament,
+        (camera, size_px): (&Camera, UVec2),
+        screens: &[Screen],
+    ) -> Arc<Starfield> {
+        // Nothing in these types has a hash; what they print tells all of it.
+        let made_from = Fingerprint::of(format!(
+            "{stars:?} {firmament:?} {camera:?} {size_px} {screens:?}"
+        ));
+        self.memo.get_or(made_from, || {
+            let glints = glints(stars, firmament, &Lens::new(camera, size_px), size_px.x, screens);
+            // A buffer cannot be empty.
+            let least = [Glint::zeroed()];
+            let held = if glints.is_empty() { &least[..] } else { &glints };
+            Starfield {
+                buffer: gpu.filled("stars", bytemuck::cast_slice(held), wgpu::BufferUsages::STORAGE),
+                glints,
+                width_px: size_px.x,
+                made_from,
+            }
+        })
+    }
+
+    /// Adds the stars of one tile to its radiance.
+    pub(crate) fn run(
+        &self,
+        recorder: &mut Recorder<'_>,
+        inputs: StarsInputs<'_>,
+        stars: &StarsOut,
+        tile: TileUniform,
+        radiance: &wgpu::Buffer,
+    ) {
+        let field = &stars.field;
+        let origin = tile.origin_px.y * field.width_px + tile.origin_px.x;
+        let part = within(&field.glints, origin..origin + tile.size_px.x * tile.size_px.y);
+        let count = |n: usize| u32::try_from(n).unwrap_or(u32::MAX);
+        let stretch = StretchUniform {
+            first: count(part.start),
+            count: count(part.len()),
+            origin,
+            out: stars.out,
+        };
+        if part.is_empty() {
+            return;
+        }
+        let gpu = recorder.gpu;
+        let air = inputs.air.upload(gpu, "air");
+        let view = inputs.view.upload(gpu, "view");
+        let threads = stretch.count;
+        let stretch = Part::new(&stretch).upload(gpu, "stretch");
+        let binds = [
+            Bind::Buffer(&air),
+            Bind::Buffer(&view),
+            Bind::Buffer(&stretch),
+            Bind::Table(&inputs.transmittance.view),
+            Bind::LinearClamp,
+            Bind::Buffer(&field.buffer),
+            Bind::Buffer(radiance),
+        ];
+        recorder.dispatch(&self.kernel, &binds, [threads, 1, 1]);
+    }
+}
