@@ -5,6 +5,9 @@
 use crate::{line::Span, medium::Medium, random::Random};
 use glam::DVec3;
 
+/// Stands for zero where something is divided by it.
+const LEAST: f64 = 1e-290;
+
 /// Spherical shells of nearly constant density.
 #[derive(Clone, Debug)]
 pub(crate) struct Shells {
@@ -119,16 +122,18 @@ impl Cells {
         }
         let extinction_per_m = shells.extinction_per_m[shell];
         let depth = extinction_per_m * (end - start);
-        // Positive even where e^-τ is not.
-        let through = (-depth).exp().max(DVec3::splat(1e-290));
-        // (1 - e^-τ)/τ, to which the second order suffices for small τ.
-        let mean = DVec3::from_array(std::array::from_fn(|band| {
-            if depth[band] < 1e-3 {
-                1.0 - 0.5 * depth[band]
+        let (mut through, mut mean) = (DVec3::ZERO, DVec3::ZERO);
+        for band in 0..3 {
+            let depth = depth[band];
+            // (1 - e^-τ)/τ; a series is nearly right for small τ, which is all that is needed here.
+            mean[band] = if depth < 0.2 {
+                1.0 - depth * (1.0 / 2.0 - depth * (1.0 / 6.0))
             } else {
-                (1.0 - through[band]) / depth[band]
-            }
-        }));
+                -(-depth).exp_m1() / depth
+            };
+            // Positive even where e^-τ is not.
+            through[band] = (1.0 - depth * mean[band]).max(LEAST);
+        }
         let mass = shells.scattering_per_m[shell] * (end - start) * mean * transmittance;
         self.cells.push(Cell {
             end,
@@ -138,7 +143,7 @@ impl Cells {
         });
         *state = (
             end,
-            (transmittance * through).max(DVec3::splat(1e-290)),
+            (transmittance * through).max(DVec3::splat(LEAST)),
             sum + mass,
         );
     }
@@ -164,7 +169,7 @@ impl Cells {
                 let s = (start + x).min(cell.end);
                 return Some(Next::Air(
                     s,
-                    cell.mass / self.total.max(DVec3::splat(1e-290))
+                    cell.mass / self.total.max(DVec3::splat(LEAST))
                         * cell.density(s - start, cell.end - start),
                 ));
             }
@@ -172,7 +177,7 @@ impl Cells {
             start = cell.end;
         }
         // Rounding may leave a remainder where there is no ground.
-        (self.ground[band] > 0.0).then(|| Next::Ground(self.ground / self.total.max(DVec3::splat(1e-290))))
+        (self.ground[band] > 0.0).then(|| Next::Ground(self.ground / self.total.max(DVec3::splat(LEAST))))
     }
 }
 

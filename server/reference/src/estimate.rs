@@ -33,7 +33,7 @@ pub struct View {
 /// How much work goes into an estimate.
 #[derive(Clone, Copy, Debug)]
 pub struct Effort {
-    /// Walks in a batch.
+    /// Walks in a batch that each of the three bands draws.
     pub batch: u32,
     /// Stop when the standard error of every total is below this share of the total.
     pub relative_error: f64,
@@ -165,8 +165,8 @@ pub fn diffuse_irradiance(medium: &Medium, view: &View, albedos: &[f64], effort:
     let mut walker = Walker::new(medium, &shells, Light::Sun(view.sun()), albedos, 0);
     let zero = vec![DVec3::ZERO; albedos.len()];
     let batches = Batches::gather(effort, &zero, |random, tally| {
-        for walk in 0..effort.batch {
-            walker.walk_from_plane(plane, band(walk), random, tally);
+        for (_, band) in draws(effort) {
+            walker.walk_from_plane(plane, band, random, tally);
         }
     });
     batches.figures(|tally| tally.by_albedo.clone())
@@ -197,10 +197,10 @@ fn rest(
         ground: true,
     };
     Batches::gather(effort, exact, |random, tally| {
-        for walk in 0..effort.batch {
-            // One walk in each of as many equal shares of the view.
-            let u = (f64::from(walk) + random.unit()) / f64::from(effort.batch);
-            if let Some(Next::Air(s, density)) = first_leg.sample(band(walk), u, random) {
+        for (draw, band) in draws(effort) {
+            // One in each of as many equal shares of the view.
+            let u = (f64::from(draw) + random.unit()) / f64::from(effort.batch);
+            if let Some(Next::Air(s, density)) = first_leg.sample(band, u, random) {
                 let point = span.line.point(s);
                 let (molecules, aerosols) = medium.scattering_per_m(point.length() - medium.ground_radius_m);
                 let first = Vertex {
@@ -209,18 +209,18 @@ fn rest(
                     weight: (molecules + aerosols) * medium.transmittance(&span.line, span.start, s),
                     ground: false,
                 };
-                walker.walk(first, density, band(walk), random, tally);
+                walker.walk(first, density, band, random, tally);
             }
             if span.ground {
-                walker.walk(ground, DVec3::ONE, band(walk), random, tally);
+                walker.walk(ground, DVec3::ONE, band, random, tally);
             }
         }
     })
 }
 
-/// The bands take turns.
-fn band(walk: u32) -> usize {
-    (walk % 3) as usize
+/// A batch's walks: as many for each band.
+fn draws(effort: &Effort) -> impl Iterator<Item = (u32, usize)> {
+    (0..effort.batch).flat_map(|draw| (0..3).map(move |band| (draw, band)))
 }
 
 /// The means of equally large batches.
@@ -243,9 +243,9 @@ impl Batches {
                 ..Tally::default()
             };
             run(&mut Random::new(effort.seed, stream), &mut tally);
-            tally.divide(f64::from(effort.batch));
+            tally.divide(3.0 * f64::from(effort.batch));
             batches.means.push(tally);
-            batches.walks += u64::from(effort.batch);
+            batches.walks += 3 * u64::from(effort.batch);
             stream += 1;
             // Looked at seldom: stopping at a lucky moment would make the errors look smaller than they are.
             if batches.means.len().is_multiple_of(FEWEST_BATCHES) && batches.good(effort, exact) {

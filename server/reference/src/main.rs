@@ -29,16 +29,16 @@ struct Arguments {
     most_walks: u32,
 }
 
-/// Walks in a batch.
-const BATCH: u32 = 4_200;
+/// Walks in a batch for each of the three bands.
+const BATCH: u32 = 1_400;
 
 fn main() -> Result<(), Box<dyn Error>> {
     let arguments = Arguments::parse();
     let set = arguments.set.plan();
-    let effort = |row: usize| Effort {
+    let effort = |group: usize, row: usize| Effort {
         batch: BATCH,
-        relative_error: set.relative_error,
-        most_batches: (arguments.most_walks / BATCH) as usize,
+        relative_error: set.groups[group].relative_error,
+        most_batches: (arguments.most_walks / (3 * BATCH)) as usize,
         seed: set.seed + row as u64,
     };
     let mut air = Vec::new();
@@ -54,7 +54,8 @@ fn main() -> Result<(), Box<dyn Error>> {
     let rows = parallel(jobs.len(), arguments.threads, |row| {
         let (group, view) = jobs[row];
         let albedos = &set.groups[group].albedos;
-        radiance(&air[group], &view, albedos, &effort(row)).map(|found| write::row(&view, albedos, &found))
+        radiance(&air[group], &view, albedos, &effort(group, row))
+            .map(|found| write::row(&view, albedos, &found))
     });
     let skies = parallel(set.groups.len(), arguments.threads, |group| {
         let albedos = &set.groups[group].albedos;
@@ -63,7 +64,7 @@ fn main() -> Result<(), Box<dyn Error>> {
             .into_iter()
             .enumerate()
             .map(|(i, view)| {
-                let effort = effort(1_000_000 + 1_000 * group + i);
+                let effort = effort(group, 500 + 10 * group + i);
                 let found = diffuse_irradiance(&air[group], &view, albedos, &effort);
                 write::sky(&view, albedos, &found)
             })

@@ -25,7 +25,6 @@ pub(crate) struct Plan {
     pub(crate) name: &'static str,
     pub(crate) what: &'static str,
     pub(crate) seed: u64,
-    pub(crate) relative_error: f64,
     pub(crate) groups: Vec<Group>,
 }
 
@@ -34,6 +33,8 @@ pub(crate) struct Group {
     /// Parts of the scene document; the sun and the camera come from the view.
     pub(crate) scene: Value,
     pub(crate) albedos: Vec<f64>,
+    /// Standard error aimed at, as a share of each total.
+    pub(crate) relative_error: f64,
     pub(crate) views: Vec<View>,
 }
 
@@ -61,10 +62,10 @@ impl Set {
                 name: "thesis",
                 what: "the thesis' air, seen from the ground",
                 seed: 1_000,
-                relative_error: 1e-3,
                 groups: vec![Group {
                     scene: thesis(1.0),
                     albedos: vec![0.0, 0.3],
+                    relative_error: 1e-3,
                     views: sky(0.0, &[0.0, 30.0, 60.0, 75.0, 85.0], &DIRECTIONS),
                 }],
             },
@@ -72,21 +73,16 @@ impl Set {
                 name: "earth",
                 what: "the Earth's air with ozone, seen from the ground",
                 seed: 2_000,
-                relative_error: 2e-3,
-                groups: vec![Group {
-                    scene: json!({}),
-                    albedos: vec![0.1, 0.8],
-                    views: sky(0.0, &[30.0, 75.0, 90.0, 94.0], &DIRECTIONS),
-                }],
+                groups: vec![earth(&[30.0, 75.0, 90.0], 1e-3), earth(&[94.0], 3e-3)],
             },
             Self::Above => Plan {
                 name: "above",
                 what: "the thesis' air and ground, seen from 10 km and from 400 km",
                 seed: 3_000,
-                relative_error: 1e-3,
                 groups: vec![Group {
                     scene: thesis(1.0),
                     albedos: vec![0.0, 0.3],
+                    relative_error: 1e-3,
                     views: above(),
                 }],
             },
@@ -94,10 +90,10 @@ impl Set {
                 name: "turbid",
                 what: "the thesis' air with four times the aerosols, seen from the ground",
                 seed: 4_000,
-                relative_error: 1e-3,
                 groups: vec![Group {
                     scene: thesis(4.0),
                     albedos: vec![0.0, 0.3],
+                    relative_error: 1e-3,
                     views: sky(0.0, &[30.0, 75.0], &DIRECTIONS),
                 }],
             },
@@ -105,7 +101,6 @@ impl Set {
                 name: "haze",
                 what: "the thesis' air with a layer of haze on the ground, seen from 2 m",
                 seed: 5_000,
-                relative_error: 3e-3,
                 groups: vec![hazy(5_000.0), hazy(1_000.0)],
             },
         }
@@ -146,6 +141,16 @@ fn thesis(turbidity: f64) -> Value {
     })
 }
 
+/// The default air.
+fn earth(suns_deg: &[f64], relative_error: f64) -> Group {
+    Group {
+        scene: json!({}),
+        albedos: vec![0.1, 0.8],
+        relative_error,
+        views: sky(0.0, suns_deg, &DIRECTIONS),
+    }
+}
+
 fn hazy(visibility_m: f64) -> Group {
     let mut scene = thesis(1.0);
     scene["haze"] = json!({"visibility_m": visibility_m, "top_m": 1000.0, "albedo": 0.95});
@@ -153,6 +158,7 @@ fn hazy(visibility_m: f64) -> Group {
     Group {
         scene,
         albedos: vec![0.0, 0.3],
+        relative_error: 3e-3,
         views: sky(2.0, &[30.0, 75.0], &[&DIRECTIONS[..], &horizontal].concat()),
     }
 }

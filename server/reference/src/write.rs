@@ -53,8 +53,7 @@ pub(crate) fn document(plan: &Plan, groups: Vec<(&Group, Vec<Value>, Vec<Value>)
             "diffuse_irradiance": "of the sky without the sun on a horizontal plane that looks up"
         },
         "seed": plan.seed,
-        "seed_of_a_row": "the set's and the row's number over all groups, from 0",
-        "relative_error_aimed_at": plan.relative_error,
+        "seed_of_a_row": "the set's plus the row's number over all groups, from 0; of a sky the set's plus 500, ten times the group's number and its own",
     });
     let lines = |values: &[Value]| {
         let lines: Vec<_> = values.iter().map(|value| format!("    {value}")).collect();
@@ -64,8 +63,9 @@ pub(crate) fn document(plan: &Plan, groups: Vec<(&Group, Vec<Value>, Vec<Value>)
         .iter()
         .map(|(group, rows, skies)| {
             format!(
-                "  {{\"scene\": {},\n   \"rows\": [\n{}\n   ],\n   \"skies\": [\n{}\n   ]}}",
+                "  {{\"scene\": {},\n   \"relative_error_aimed_at\": {},\n   \"rows\": [\n{}\n   ],\n   \"skies\": [\n{}\n   ]}}",
                 group.scene,
+                group.relative_error,
                 lines(rows),
                 lines(skies)
             )

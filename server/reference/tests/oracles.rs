@@ -70,7 +70,7 @@ fn all_orders_are_the_oracle_s_within_their_errors() {
     let air = air();
     // 36,000 walks a row: 0.3 % of each total, twice the oracle's own errors.
     let effort = Effort {
-        batch: 600,
+        batch: 200,
         relative_error: 0.0,
         most_batches: 60,
         seed: 1,
