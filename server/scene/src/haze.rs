@@ -30,7 +30,7 @@ pub struct Haze {
 pub const DEFAULT_VISIBILITY_M: f64 = 20_000.0;
 
 /// -ln(0.02): optical depth at which 2 % of the contrast is left.
-const KOSCHMIEDER: f64 = 3.912;
+pub(crate) const KOSCHMIEDER: f64 = 3.912;
 
 impl Default for Haze {
     fn default() -> Self {

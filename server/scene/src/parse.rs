@@ -5,9 +5,10 @@ use crate::{
     document::Scene,
     explain::explain,
     frame::FrameRequest,
+    metar::MetarRequest,
     probe::ProbeRequest,
     problem::{Problem, Problems, SceneError, echo, member},
-    schema::{frame_request_schema, probe_request_schema, scene_schema},
+    schema::{frame_request_schema, metar_request_schema, probe_request_schema, scene_schema},
 };
 use jsonschema::Validator;
 use serde::de::DeserializeOwned;
@@ -36,6 +37,7 @@ impl Rules {
 
 static SCENE: LazyLock<Rules> = LazyLock::new(|| Rules::new(scene_schema()));
 static FRAME: LazyLock<Rules> = LazyLock::new(|| Rules::new(frame_request_schema()));
+static METAR: LazyLock<Rules> = LazyLock::new(|| Rules::new(metar_request_schema()));
 static PROBE: LazyLock<Rules> = LazyLock::new(|| Rules::new(probe_request_schema()));
 
 macro_rules! readable {
@@ -61,7 +63,7 @@ macro_rules! readable {
     )* };
 }
 
-readable!(Scene by SCENE, FrameRequest by FRAME, ProbeRequest by PROBE);
+readable!(Scene by SCENE, FrameRequest by FRAME, ProbeRequest by PROBE, MetarRequest by METAR);
 
 fn read<T: DeserializeOwned + Check>(rules: &Rules, value: &Value) -> Result<T, SceneError> {
     if !rules.validator.is_valid(value) {

@@ -1,5 +1,6 @@
 //! What is wrong with a document, in words for the person who wrote it.
 
+use crate::metar::ReportFault;
 use serde::Serialize;
 use serde_json::{Serializer, Value, ser::Formatter};
 use std::{fmt, io};
@@ -29,6 +30,15 @@ pub enum SceneError {
     /// JSON, but not what was asked for. Never empty, [`MAX_PROBLEMS`] at most.
     #[error("{}", Listed(.0))]
     Invalid(Vec<Problem>),
+    /// A weather report has a group that is not understood.
+    #[error("{0}")]
+    Report(ReportFault),
+}
+
+impl From<ReportFault> for SceneError {
+    fn from(fault: ReportFault) -> Self {
+        Self::Report(fault)
+    }
 }
 
 /// One thing that is wrong with a document.

@@ -1,7 +1,12 @@
 //! JSON Schema (draft 2020-12) of the documents, derived from their types. It is both what is served and what is
 //! checked, so that a limit stands once.
 
-use crate::{document::Scene, frame::FrameRequest, probe::ProbeRequest};
+use crate::{
+    document::Scene,
+    frame::FrameRequest,
+    metar::{MetarAnswer, MetarRequest},
+    probe::ProbeRequest,
+};
 use schemars::{JsonSchema, Schema, generate::SchemaSettings, transform::RecursiveTransform};
 use serde_json::Value;
 
@@ -15,6 +20,18 @@ pub fn scene_schema() -> Value {
 #[must_use]
 pub fn frame_request_schema() -> Value {
     derive::<FrameRequest>()
+}
+
+/// The schema of [`MetarRequest`].
+#[must_use]
+pub fn metar_request_schema() -> Value {
+    derive::<MetarRequest>()
+}
+
+/// The schema of [`MetarAnswer`].
+#[must_use]
+pub fn metar_answer_schema() -> Value {
+    derive::<MetarAnswer>()
 }
 
 /// The schema of [`ProbeRequest`].

@@ -5,6 +5,7 @@ use serde::Serialize;
 use serde_json::Value;
 use welkin_encode::EncodeError;
 use welkin_scene::{
+    ReportFault,
     problem::{Problem, SceneError},
     renderer::RenderError,
 };
@@ -26,6 +27,9 @@ pub(crate) enum Error {
     /// JSON, or a query, but not what was asked for.
     #[error("{}", first_message(.0))]
     Invalid(Vec<Fault>),
+    /// A weather report has a group that is not understood.
+    #[error("{0}")]
+    Report(ReportFault),
     /// No such path, or nothing of that name.
     #[error("there is nothing at {0}")]
     NotFound(String),
@@ -133,6 +137,7 @@ impl From<SceneError> for Error {
                 reason,
             },
             SceneError::Invalid(problems) => Self::Invalid(problems.into_iter().map(Fault::from).collect()),
+            SceneError::Report(fault) => Self::Report(fault),
         }
     }
 }
@@ -182,7 +187,7 @@ impl Error {
     pub(crate) const fn status(&self) -> StatusCode {
         match self {
             Self::Malformed { .. } | Self::Body(_) => StatusCode::BAD_REQUEST,
-            Self::Invalid(_) => StatusCode::UNPROCESSABLE_ENTITY,
+            Self::Invalid(_) | Self::Report(_) => StatusCode::UNPROCESSABLE_ENTITY,
             Self::NotFound(_) => StatusCode::NOT_FOUND,
             Self::Method { .. } => StatusCode::METHOD_NOT_ALLOWED,
             Self::NotAcceptable(_) => StatusCode::NOT_ACCEPTABLE,

@@ -13,6 +13,7 @@ mod operations;
 mod probe;
 mod problem;
 mod router;
+mod scenes;
 mod server;
 mod settings;
 mod state;

@@ -107,6 +107,8 @@ pub(crate) fn complete(routes: &utoipa::openapi::OpenApi, build: &str) -> Result
         ("Scene", schema::scene_schema()),
         ("FrameRequest", schema::frame_request_schema()),
         ("ProbeRequest", schema::probe_request_schema()),
+        ("MetarRequest", schema::metar_request_schema()),
+        ("MetarAnswer", schema::metar_answer_schema()),
         ("ProbeAnswer", schema_for!(ProbeAnswer).to_value()),
         ("Problem", problem_schema()),
         ("Device", device_schema()),
@@ -175,6 +177,18 @@ fn problem_schema() -> Value {
         "status": {"type": "integer"},
         "detail": {"type": "string"},
         "instance": {"type": "string", "format": "uri-reference", "description": "Path and request id"},
+    });
+    whole["group"] = json!({
+        "type": "object",
+        "description": "The group of a weather report that is not understood",
+        "properties": {
+            "group": {"type": "string", "description": "In capital letters; empty where the report ends too early"},
+            "number": {"type": "integer", "description": "The group's number in the report, from 1"},
+            "start": {"type": "integer", "description": "Characters before it"},
+            "end": {"type": "integer", "description": "Characters before its end"},
+            "expected": {"type": "string", "description": "What may stand there"},
+        },
+        "required": ["group", "number", "start", "end", "expected"],
     });
     let mut one = fault.clone();
     one["message"] = json!({"type": "string", "description": "The whole in one sentence"});

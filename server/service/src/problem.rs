@@ -12,6 +12,7 @@ use serde::Serialize;
 use serde_json::Value;
 use std::any::Any;
 use tower_http::request_id::RequestId;
+use welkin_scene::ReportFault;
 
 /// The document sent to the client. `pointer`, `value` and `allowed` are those of the first fault.
 #[derive(Serialize)]
@@ -31,6 +32,8 @@ pub(crate) struct Problem {
     value: Option<Value>,
     #[serde(skip_serializing_if = "Option::is_none")]
     allowed: Option<String>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    group: Option<ReportFault>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
     errors: Vec<Fault>,
 }
@@ -69,7 +72,16 @@ impl Problem {
                 )),
                 vec![],
             ),
+            Error::Report(fault) => {
+                let allowed = fault.expected.clone();
+                let fault = Fault::field("/metar", fault.group.clone().into(), allowed, error.to_string());
+                (Some(fault.clone()), vec![fault])
+            }
             _ => (None, vec![]),
+        };
+        let group = match error {
+            Error::Report(fault) => Some(fault.clone()),
+            _ => None,
         };
         let (mut pointer, mut parameter, mut value, mut allowed) = (None, None, None, None);
         if let Some(fault) = first {
@@ -86,6 +98,7 @@ impl Problem {
             parameter,
             value,
             allowed,
+            group,
             errors,
         }
     }

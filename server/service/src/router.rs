@@ -4,7 +4,7 @@ use crate::{
     body::{BodyTimeout, MAX_BODY_BYTES},
     discovery,
     error::Error,
-    frames, live, metrics, openapi, operations, probe, problem,
+    frames, live, metrics, openapi, operations, probe, problem, scenes,
     state::Service,
     web,
 };
@@ -88,6 +88,7 @@ fn documented() -> OpenApiRouter<Service> {
         .routes(routes!(frames::get_frame, frames::post_frame))
         .routes(routes!(live::live))
         .routes(routes!(probe::post_probe))
+        .routes(routes!(scenes::from_metar))
         .routes(routes!(discovery::list_presets))
         .routes(routes!(discovery::get_preset))
         .routes(routes!(discovery::scene_schema))

@@ -15,6 +15,7 @@ mod hostile;
 mod limits;
 mod live;
 mod live_flow;
+mod metar;
 mod openapi;
 mod shutdown;
 mod static_files;

@@ -8,11 +8,12 @@ use axum::{body::Body, http::Request};
 use serde_json::Value;
 
 /// The routes of the contract. `/docs` is a page about the others.
-const ROUTES: [(&str, &[&str]); 14] = [
+const ROUTES: [(&str, &[&str]); 15] = [
     ("/", &["get"]),
     ("/v1/frames", &["get", "post"]),
     ("/v1/live", &["get"]),
     ("/v1/probe", &["post"]),
+    ("/v1/scenes/from-metar", &["post"]),
     ("/v1/presets", &["get"]),
     ("/v1/presets/{name}", &["get"]),
     ("/v1/schema/scene", &["get"]),
