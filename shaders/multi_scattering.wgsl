@@ -1,24 +1,33 @@
 // Light scattered twice and more, order by order, and the light that the sky sends to the ground.
 //
-// One dispatch takes the radiance L_n of one order along rays all round each point to its moments c_n, from which the
-// source of the next order follows, and to the irradiance E_n of the ground, so that light goes back and forth between
-// air and ground as it does in truth:
-//   L_1 = single scattering + T ρ/π E_0,   L_{n+1} = ∫ T σ_s S(c_n) dt + T ρ/π E_n.
+// One dispatch takes the radiance L_n of one order along rays all round each point to the source function S_n of the
+// next, and to the irradiance E_n of the ground, so that light goes back and forth between air and ground as it does in
+// truth:
+//   L_1 = single scattering + T ρ/π E_0,   L_{n+1} = ∫ T σ_s S_n dt + T ρ/π E_n,
+//   S_n(v) = Σ_kind σ_kind/σ_s ∫ p_kind(ω·v) L_n(ω) dω.
 // After the last order the rest is summed as a geometric series with the ratio of the last two orders.
-// Hillaire 2020 §5.5 keeps the zeroth moment alone, sums from the first order on, and leaves the lit ground out of the
-// ratio. The aerosols' forward peak needs the higher moments: without them a third more of the ground's light comes
-// back down.
-import package::lib::air::Air;
+// Hillaire 2020 §5.5 keeps the mean of the light alone, sums from the first order on, and leaves the lit ground out of
+// the ratio.
+//
+// The aerosols' peak is narrower than the directions are apart. Its integrals are therefore taken as known integrals
+// times weighted means: ∫ p(ω·v) L dω as the mean of L with the weights p, and of the light that aerosols scattered
+// first, L = p(ω·s) B(ω), as (p*p)(v·s) times the mean of B with the weights p(ω·v) p(ω·s), where p*p is the phase
+// function convolved with itself, from a list.
+import package::lib::air::{Air, coefficients_at};
 import package::lib::geometry::{PI, cosine_after, distance_to_sphere, distance_to_top, horizon_distance_squared};
-import package::lib::moments::{MOMENTS, harmonics};
 import package::lib::phase::{rayleigh_phase, cornette_shanks_phase};
 import package::lib::scattering::{AirRay, March, scatter_along};
-import package::lib::tables::{multi_scattering_point, sun_cosine_unit, texel_to_unit, unit_to_coordinate};
+import package::lib::source::VIEW_AZIMUTHS;
+import package::lib::tables::{multi_scattering_point, sun_cosine_point, sun_cosine_unit, unit_to_coordinate};
 import package::lib::transmittance::transmittance_to_space;
 
 // True for the light that the sun sends. A variant of its own: neither has to pay for the other's work, as a software
 // device runs both sides of every branch.
 override FIRST: bool = true;
+// Directions: Gauss-Legendre nodes x on either side of the horizon, bent towards it by mu = mu_h ± Δ x², times azimuths
+// on one side of the sun (the other side is its mirror image).
+override POLAR: u32 = 6u;
+override AZIMUTHS: u32 = 6u;
 
 struct Order {
     // 1 where the sums shall be written rather than this order.
@@ -30,46 +39,59 @@ struct Order {
 @group(0) @binding(1) var<uniform> order: Order;
 @group(0) @binding(2) var transmittance_table: texture_2d<f32>;
 @group(0) @binding(3) var linear_clamp: sampler;
-@group(0) @binding(4) var moments_before: texture_2d_array<f32>;
+@group(0) @binding(4) var source_before: texture_2d_array<f32>;
 @group(0) @binding(5) var irradiance_before: texture_2d<f32>;
-@group(0) @binding(6) var moments: texture_storage_2d_array<rgba32float, write>;
+@group(0) @binding(6) var source: texture_storage_2d_array<rgba32float, write>;
 @group(0) @binding(7) var irradiance: texture_storage_2d<rgba32float, write>;
-// For each texel: the sums of the orders, then the last order; six moments and the irradiance in each.
+// For each texel: the sums of the orders, then the last order; the source in every direction of view and the irradiance
+// in each.
 @group(0) @binding(8) var<storage, read_write> sums: array<vec4f>;
+// x: nodes from 0 to 1, y: their weights.
+@group(0) @binding(9) var<storage, read> nodes: array<vec2f>;
+// The aerosols' phase function convolved with itself, at even angles from 0 to π.
+@group(0) @binding(10) var<storage, read> twice_scattered: array<f32>;
 
-// Directions: six Gauss-Legendre nodes x on either side of the horizon, bent towards it by mu = mu_h ± Δ x², times
-// six azimuths on one side of the sun (the other side is its mirror image).
-const POLAR = 6u;
-const AZIMUTHS = 6u;
-const THREADS = 24u;
-const NODES = array<f32, 6>(0.0337652429, 0.1693953068, 0.3806904070, 0.6193095930, 0.8306046932, 0.9662347571);
-const WEIGHTS = array<f32, 6>(0.0856622462, 0.1803807865, 0.2339569673, 0.2339569673, 0.1803807865, 0.0856622462);
+const THREADS = 32u;
+// 2 · POLAR · AZIMUTHS of the largest variant.
+const MOST_DIRECTIONS = 160u;
 
-// Light from one direction or several: the moments, and the irradiance on the ground in the last place.
-const VALUES = 7u;
-
-struct Share {
-    light: array<vec3f, 7>,
-    // Aerosol light, and the sum of the phase function over the directions, by which it is divided: the peak is
-    // narrower than the directions are apart, and its energy is known.
-    mie: array<vec3f, 7>,
-    mie_norm: f32,
+struct Incoming {
+    // Even light: molecules, ground, later orders.
+    light: vec3f,
+    mu: f32,
+    // Light that aerosols scattered first, without their phase function.
+    mie: vec3f,
+    cos_azimuth: f32,
+    // Solid angle of the direction and of its mirror image, each.
+    weight: f32,
+    // The aerosols' phase function towards the sun.
+    phase: f32,
 }
 
-var<workgroup> shares: array<Share, 24>;
+var<workgroup> incoming: array<Incoming, 160>;
 
-fn add_direction(share: ptr<function, Share>, h: f32, mu_s: f32, mu: f32, azimuth: f32, weight: f32) {
-    let sin_view = sqrt(max(1.0 - mu * mu, 0.0));
-    let sin_sun = sqrt(max(1.0 - mu_s * mu_s, 0.0));
-    let nu = clamp(mu * mu_s + sin_view * sin_sun * cos(azimuth), -1.0, 1.0);
+fn look(h: f32, mu_s: f32, index: u32) -> Incoming {
+    let horizon = -sqrt(horizon_distance_squared(air.radius_m, h)) / (air.radius_m + h);
+    let node = nodes[(index / AZIMUTHS) % POLAR];
+    let reach = select(-1.0 - horizon, 1.0 - horizon, index < POLAR * AZIMUTHS);
+    let mu = clamp(horizon + reach * node.x * node.x, -1.0, 1.0);
+    var seen: Incoming;
+    seen.mu = mu;
+    seen.cos_azimuth = cos(PI * (f32(index % AZIMUTHS) + 0.5) / f32(AZIMUTHS));
+    // dω = dmu dφ
+    seen.weight = node.y * 2.0 * node.x * abs(reach) * PI / f32(AZIMUTHS);
+    let nu = clamp(mu * mu_s + sqrt((1.0 - mu * mu) * (1.0 - mu_s * mu_s)) * seen.cos_azimuth, -1.0, 1.0);
     let to_ground = distance_to_sphere(air.radius_m, h, mu);
     let ground = to_ground >= 0.0;
     let length_m = select(distance_to_top(air.radius_m, air.top_m, h, mu), to_ground, ground);
     let ray = AirRay(h, mu, mu_s, nu, length_m);
-    let scattered = scatter_along(air, ray, transmittance_table, moments_before, linear_clamp, March(FIRST, !FIRST, false, order.steps, 0u));
-    var radiance = scattered.multiple;
+    let march = March(FIRST, !FIRST, false, order.steps, 0u);
+    let scattered = scatter_along(air, ray, transmittance_table, source_before, linear_clamp, march);
+    seen.light = scattered.multiple;
     if FIRST {
-        radiance = rayleigh_phase(nu) * scattered.rayleigh;
+        seen.light = rayleigh_phase(nu) * scattered.rayleigh;
+        seen.mie = scattered.mie;
+        seen.phase = cornette_shanks_phase(nu, air.mie_asymmetry);
     }
     if ground {
         let mu_s_ground = cosine_after(air.radius_m, h, 0.0, mu_s, nu, length_m);
@@ -78,61 +100,96 @@ fn add_direction(share: ptr<function, Share>, h: f32, mu_s: f32, mu: f32, azimut
         if FIRST {
             lit = max(mu_s_ground, 0.0) * transmittance_to_space(air, transmittance_table, linear_clamp, 0.0, mu_s_ground);
         }
-        radiance += exp(-scattered.optical_depth) * air.ground_albedo / PI * lit;
+        seen.light += exp(-scattered.optical_depth) * air.ground_albedo / PI * lit;
     }
-    var mie = vec3f(0.0);
-    if FIRST {
-        let phase = cornette_shanks_phase(nu, air.mie_asymmetry);
-        mie = phase * scattered.mie;
-        (*share).mie_norm += phase * weight;
-    }
-    let y = harmonics(mu, mu_s, nu);
-    for (var k = 0u; k < VALUES; k++) {
-        let share_of = weight * select(max(mu, 0.0), y[min(k, MOMENTS - 1u)], k < MOMENTS);
-        (*share).light[k] += share_of * radiance;
-        (*share).mie[k] += share_of * mie;
-    }
+    return seen;
 }
 
-@compute @workgroup_size(24)
-fn multi_scattering(@builtin(workgroup_id) texel: vec3u, @builtin(local_invocation_index) thread: u32) {
-    let size = textureDimensions(moments);
-    let p = multi_scattering_point(air.top_m, vec2f(texel_to_unit(texel.x, size.x), texel_to_unit(texel.y, size.y)));
-    let h = p.altitude_m;
-    let horizon = -sqrt(horizon_distance_squared(air.radius_m, h)) / (air.radius_m + h);
-    var mine: Share;
-    for (var i = thread; i < 2u * POLAR * AZIMUTHS; i += THREADS) {
-        let polar = (i / AZIMUTHS) % POLAR;
-        let up = i < POLAR * AZIMUTHS;
-        let x = NODES[polar];
-        let reach = select(-1.0 - horizon, 1.0 - horizon, up);
-        let mu = horizon + reach * x * x;
-        // dω = dmu dφ; both sides of the sun.
-        let weight = WEIGHTS[polar] * 2.0 * x * abs(reach) * 2.0 * PI / f32(AZIMUTHS);
-        let azimuth = PI * (f32(i % AZIMUTHS) + 0.5) / f32(AZIMUTHS);
-        add_direction(&mine, h, p.mu, mu, azimuth, weight);
+fn convolved_phase(nu: f32) -> f32 {
+    let count = arrayLength(&twice_scattered);
+    let at = acos(clamp(nu, -1.0, 1.0)) / PI * f32(count - 1u);
+    let i = min(u32(at), count - 2u);
+    return mix(twice_scattered[i], twice_scattered[i + 1u], at - f32(i));
+}
+
+fn source_towards(h: f32, in_haze: bool, mu_s: f32, mu: f32, azimuth: f32) -> vec3f {
+    let g = air.mie_asymmetry;
+    let sine = sqrt(1.0 - mu * mu);
+    let cos_azimuth = cos(azimuth);
+    let sin_azimuth = sin(azimuth);
+    var molecules = vec3f(0.0);
+    var aerosols = vec3f(0.0);
+    var aerosols_norm = 0.0;
+    var again = vec3f(0.0);
+    var again_norm = 0.0;
+    // Of the light that aerosols scattered first, as molecules see it.
+    var peak = vec3f(0.0);
+    var peak_norm = 0.0;
+    for (var i = 0u; i < 2u * POLAR * AZIMUTHS; i++) {
+        let seen = incoming[i];
+        let across = sine * sqrt(1.0 - seen.mu * seen.mu);
+        let along = mu * seen.mu + across * cos_azimuth * seen.cos_azimuth;
+        let aside = across * sin_azimuth * sqrt(max(1.0 - seen.cos_azimuth * seen.cos_azimuth, 0.0));
+        // The direction and its mirror image beyond the sun's plane.
+        let left = clamp(along + aside, -1.0, 1.0);
+        let right = clamp(along - aside, -1.0, 1.0);
+        let by_molecules = seen.weight * (rayleigh_phase(left) + rayleigh_phase(right));
+        let by_aerosols = seen.weight * (cornette_shanks_phase(left, g) + cornette_shanks_phase(right, g));
+        molecules += by_molecules * seen.light;
+        aerosols += by_aerosols * seen.light;
+        aerosols_norm += by_aerosols;
+        if FIRST {
+            peak += by_molecules * seen.phase * seen.mie;
+            peak_norm += 2.0 * seen.weight * seen.phase;
+            again += by_aerosols * seen.phase * seen.mie;
+            again_norm += by_aerosols * seen.phase;
+        }
     }
-    shares[thread] = mine;
-    workgroupBarrier();
-    // One thread a value.
-    if thread >= VALUES {
-        return;
-    }
-    var light = vec3f(0.0);
-    var mie = vec3f(0.0);
-    var mie_norm = 0.0;
-    for (var i = 0u; i < THREADS; i++) {
-        light += shares[i].light[thread];
-        mie += shares[i].mie[thread];
-        mie_norm += shares[i].mie_norm;
-    }
+    var to_aerosols = aerosols / max(aerosols_norm, 1e-9);
     if FIRST {
-        light += mie / max(mie_norm, 1e-6);
+        let nu = mu * mu_s + sine * sqrt(1.0 - mu_s * mu_s) * cos_azimuth;
+        molecules += peak / max(peak_norm, 1e-9);
+        to_aerosols += convolved_phase(nu) * again / max(again_norm, 1e-9);
     }
-    let total = with_orders_before(2u * VALUES * (texel.y * size.x + texel.x) + thread, light);
-    if thread < MOMENTS {
-        textureStore(moments, texel.xy, thread, vec4f(total, 0.0));
-    } else if texel.y == 0u {
+    let c = coefficients_at(air, h, in_haze);
+    let all = c.rayleigh_per_m + c.mie_per_m;
+    return (c.rayleigh_per_m * molecules + c.mie_per_m * to_aerosols) / max(all, vec3f(1e-30));
+}
+
+fn light_on_ground() -> vec3f {
+    var light = vec3f(0.0);
+    var peak = vec3f(0.0);
+    var peak_norm = 0.0;
+    for (var i = 0u; i < POLAR * AZIMUTHS; i++) {
+        let seen = incoming[i];
+        light += 2.0 * seen.weight * max(seen.mu, 0.0) * seen.light;
+        peak += 2.0 * seen.weight * max(seen.mu, 0.0) * seen.phase * seen.mie;
+    }
+    for (var i = 0u; i < 2u * POLAR * AZIMUTHS; i++) {
+        peak_norm += 2.0 * incoming[i].weight * incoming[i].phase;
+    }
+    return light + peak / max(peak_norm, 1e-9);
+}
+
+@compute @workgroup_size(32)
+fn multi_scattering(@builtin(workgroup_id) texel: vec3u, @builtin(local_invocation_index) thread: u32) {
+    let size = textureDimensions(source);
+    let p = multi_scattering_point(air, texel.xy, size);
+    for (var i = thread; i < min(2u * POLAR * AZIMUTHS, MOST_DIRECTIONS); i += THREADS) {
+        incoming[i] = look(p.altitude_m, p.mu_s, i);
+    }
+    workgroupBarrier();
+    let views = textureNumLayers(source);
+    let view_cosines = views / VIEW_AZIMUTHS;
+    let cell = 2u * (views + 1u) * (texel.y * size.x + texel.x);
+    for (var view = thread; view < views; view += THREADS) {
+        let mu = sun_cosine_point(f32(view / VIEW_AZIMUTHS) / f32(view_cosines - 1u));
+        let azimuth = PI * f32(view % VIEW_AZIMUTHS) / f32(VIEW_AZIMUTHS - 1u);
+        let found = source_towards(p.altitude_m, p.in_haze, p.mu_s, mu, azimuth);
+        textureStore(source, texel.xy, view, vec4f(with_orders_before(cell + 2u * view, found), 0.0));
+    }
+    if texel.y == 0u && thread == THREADS - 1u {
+        let total = with_orders_before(cell + 2u * views, light_on_ground());
         textureStore(irradiance, vec2u(texel.x, 0u), vec4f(total, 0.0));
     }
 }
@@ -142,10 +199,10 @@ fn with_orders_before(cell: u32, light: vec3f) -> vec3f {
     if FIRST {
         sums[cell] = vec4f(0.0);
     }
-    let before = sums[cell + VALUES].rgb;
+    let before = sums[cell + 1u].rgb;
     let sum = sums[cell].rgb + light;
     sums[cell] = vec4f(sum, 0.0);
-    sums[cell + VALUES] = vec4f(light, 0.0);
+    sums[cell + 1u] = vec4f(light, 0.0);
     if order.last == 0u {
         return light;
     }

@@ -5,6 +5,11 @@ import package::lib::light::{View, ground_radiance, scattered_radiance, sun_disc
 import package::lib::scattering::{March, Scattered, scatter_along};
 import package::lib::view_ray::{Observer, enter_air};
 
+// False for the first order alone.
+override MULTIPLE: bool = true;
+// True where the optical depth to the sun is integrated in every step.
+override NESTED: bool = false;
+
 struct Answer {
     radiance: vec3f,
     // Negative where the sky is seen.
@@ -18,7 +23,7 @@ struct Answer {
 @group(0) @binding(3) var transmittance_table: texture_2d<f32>;
 @group(0) @binding(4) var linear_clamp: sampler;
 @group(0) @binding(5) var irradiance_table: texture_2d<f32>;
-@group(0) @binding(6) var multi_scattering_table: texture_2d_array<f32>;
+@group(0) @binding(6) var source_table: texture_2d_array<f32>;
 // World direction; w is 1 where the sun's disc counts.
 @group(0) @binding(7) var<storage, read> directions: array<vec4f>;
 @group(0) @binding(8) var<storage, read_write> answers: array<Answer>;
@@ -36,7 +41,7 @@ fn probe(@builtin(global_invocation_id) id: vec3u) {
     let entry = enter_air(air, observer, mu, nu, ground, ground_m);
     var light: Scattered;
     if entry.length_m > 0.0 {
-        light = scatter_along(air, entry, transmittance_table, multi_scattering_table, linear_clamp, March(true, true, false, observer.steps, 0u));
+        light = scatter_along(air, entry, transmittance_table, source_table, linear_clamp, March(true, MULTIPLE, NESTED, observer.steps, observer.sun_steps));
     }
     var behind = directions[id.x].w * sun_disc(view, direction);
     if ground {

@@ -3,8 +3,15 @@ import package::lib::air::Air;
 import package::lib::camera::{Camera, sight_at};
 import package::lib::geometry::{angle_between, distance_to_sphere, edge_zenith_angle, horizon_distance_squared};
 import package::lib::light::{View, disc_radiance, ground_radiance, scattered_radiance};
-import package::lib::scattering::Scattered;
+import package::lib::scattering::{March, Scattered, scatter_along};
 import package::lib::tables::{SkyViewRay, sky_view_coordinate, least_zenith_angle};
+import package::lib::view_ray::{Observer, enter_air};
+
+// 0: light in the air from the sky-view table; 1: integrated along each pixel's ray, 2: with the optical depth to the
+// sun integrated in every step of it.
+override METHOD: u32 = 0u;
+// False for the first order alone.
+override MULTIPLE: bool = true;
 
 struct Tile {
     origin_px: vec2u,
@@ -15,14 +22,26 @@ struct Tile {
 @group(0) @binding(1) var<uniform> view: View;
 @group(0) @binding(2) var<uniform> camera: Camera;
 @group(0) @binding(3) var<uniform> tile: Tile;
-@group(0) @binding(4) var transmittance_table: texture_2d<f32>;
-@group(0) @binding(5) var linear_clamp: sampler;
-@group(0) @binding(6) var irradiance_table: texture_2d<f32>;
-@group(0) @binding(7) var sky_view_table: texture_2d_array<f32>;
+@group(0) @binding(4) var<uniform> observer: Observer;
+@group(0) @binding(5) var transmittance_table: texture_2d<f32>;
+@group(0) @binding(6) var linear_clamp: sampler;
+@group(0) @binding(7) var irradiance_table: texture_2d<f32>;
+// Whichever of the two the method reads.
+@group(0) @binding(8) var sky_view_table: texture_2d_array<f32>;
+@group(0) @binding(9) var source_table: texture_2d_array<f32>;
 // R, G, B in W/m²/sr; alpha is 0 where the projection sees nothing, else one more than the angle from the sun.
-@group(0) @binding(8) var<storage, read_write> radiance: array<vec4f>;
+@group(0) @binding(10) var<storage, read_write> radiance: array<vec4f>;
 
-fn light_in_air(ray: SkyViewRay) -> Scattered {
+fn light_in_air(ray: SkyViewRay, mu: f32, nu: f32) -> Scattered {
+    if METHOD != 0u {
+        var light: Scattered;
+        let entry = enter_air(air, observer, mu, nu, ray.ground, ray.distance_m);
+        if entry.length_m > 0.0 {
+            let march = March(true, MULTIPLE, METHOD == 2u, observer.steps, observer.sun_steps);
+            light = scatter_along(air, entry, transmittance_table, source_table, linear_clamp, march);
+        }
+        return light;
+    }
     let at = sky_view_coordinate(air.radius_m, air.top_m, view.altitude_m, ray, textureDimensions(sky_view_table));
     let rayleigh = textureSampleLevel(sky_view_table, linear_clamp, at, 0, 0.0);
     let mie = textureSampleLevel(sky_view_table, linear_clamp, at, 1, 0.0);
@@ -73,7 +92,7 @@ fn radiance_towards(direction: vec3f, disc: vec3f) -> vec3f {
     if above > 0.0 {
         let angle = min(zenith_angle, horizon);
         if angle >= least_zenith_angle(air.radius_m, air.top_m, view.altitude_m) {
-            let light = light_in_air(SkyViewRay(azimuth, angle, false, 0.0));
+            let light = light_in_air(SkyViewRay(azimuth, angle, false, 0.0), mu, nu);
             sum += above * (scattered_radiance(air, view, light, nu) + exp(-light.optical_depth) * disc);
         } else {
             sum += above * disc;
@@ -84,7 +103,7 @@ fn radiance_towards(direction: vec3f, disc: vec3f) -> vec3f {
         let met_m = distance_to_sphere(air.radius_m, view.altitude_m, mu);
         let edge_m = sqrt(horizon_distance_squared(air.radius_m, view.altitude_m));
         let distance_m = select(met_m, edge_m, met_m < 0.0);
-        let light = light_in_air(SkyViewRay(azimuth, zenith_angle, true, distance_m));
+        let light = light_in_air(SkyViewRay(azimuth, zenith_angle, true, distance_m), mu, nu);
         let ground = ground_radiance(air, view, nu, distance_m, transmittance_table, irradiance_table, linear_clamp);
         sum += (1.0 - above) * (scattered_radiance(air, view, light, nu) + exp(-light.optical_depth) * ground);
     }

@@ -6,11 +6,14 @@ import package::lib::scattering::{AirRay, March, Scattered, scatter_along};
 import package::lib::view_ray::{Observer, enter_air};
 import package::lib::tables::sky_view_ray;
 
+// False for the first order alone.
+override MULTIPLE: bool = true;
+
 @group(0) @binding(0) var<uniform> air: Air;
 @group(0) @binding(1) var<uniform> observer: Observer;
 @group(0) @binding(2) var transmittance_table: texture_2d<f32>;
 @group(0) @binding(3) var linear_clamp: sampler;
-@group(0) @binding(4) var multi_scattering_table: texture_2d_array<f32>;
+@group(0) @binding(4) var source_table: texture_2d_array<f32>;
 // Layers: Rayleigh, Mie, multiple; their alpha is the optical depth in R, G, B.
 @group(0) @binding(5) var table: texture_storage_2d_array<rgba32float, write>;
 
@@ -26,7 +29,7 @@ fn sky_view(@builtin(global_invocation_id) id: vec3u) {
     let entry = enter_air(air, observer, mu, clamp(nu, -1.0, 1.0), ray.ground, ray.distance_m);
     var light: Scattered;
     if entry.length_m > 0.0 {
-        light = scatter_along(air, entry, transmittance_table, multi_scattering_table, linear_clamp, March(true, true, false, observer.steps, 0u));
+        light = scatter_along(air, entry, transmittance_table, source_table, linear_clamp, March(true, MULTIPLE, false, observer.steps, 0u));
     }
     textureStore(table, id.xy, 0, vec4f(light.rayleigh, light.optical_depth.r));
     textureStore(table, id.xy, 1, vec4f(light.mie, light.optical_depth.g));

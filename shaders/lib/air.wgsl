@@ -16,8 +16,6 @@ struct Air {
     haze_extinction_per_m: f32,
     ground_albedo: vec3f,
     haze_top_m: f32,
-    // Legendre moments p_1 and p_2 of the aerosols' phase function.
-    mie_moments: vec2f,
     radius_m: f32,
     top_m: f32,
     // 1: all orders of scattering; 0: the first alone.

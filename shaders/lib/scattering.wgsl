@@ -1,7 +1,7 @@
 // Light scattered towards the observer along one ray, without phase functions, for a sun of unit irradiance.
 import package::lib::air::{Air, coefficients_at};
 import package::lib::geometry::{altitude_after, cosine_after, shadow_stretch, shell_stretch};
-import package::lib::moments::source_per_m;
+import package::lib::source::source_function;
 import package::lib::transmittance::{haze_optical_depth, integrate_optical_depth, optical_depth_to_top};
 
 // A stretch of a ray inside the air.
@@ -18,7 +18,7 @@ struct AirRay {
 struct March {
     // The first order; the others.
     with_sun: bool,
-    with_moments: bool,
+    with_source: bool,
     // The optical depth to the sun is integrated anew at every step, not read from the table.
     nested: bool,
     steps: u32,
@@ -45,7 +45,7 @@ fn scatter_along(
     air: Air,
     ray: AirRay,
     transmittance_table: texture_2d<f32>,
-    multiple_table: texture_2d_array<f32>,
+    source_table: texture_2d_array<f32>,
     linear_clamp: sampler,
     march: March,
 ) -> Scattered {
@@ -96,9 +96,10 @@ fn scatter_along(
                 sum.rayleigh += weight * c.rayleigh_per_m * exp(-depth);
                 sum.mie += weight * c.mie_per_m * exp(-depth);
             }
-            if march.with_moments {
+            if march.with_source {
                 let mu = cosine_after(air.radius_m, ray.altitude_m, h, ray.mu, 1.0, t);
-                sum.multiple += weight * source_per_m(air, c, multiple_table, linear_clamp, h, mu, mu_s, ray.nu);
+                let source = source_function(air, source_table, linear_clamp, h, in_haze, mu, mu_s, ray.nu);
+                sum.multiple += weight * (c.rayleigh_per_m + c.mie_per_m) * source;
             }
             sum.optical_depth += tau;
         }

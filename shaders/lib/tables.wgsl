@@ -1,5 +1,6 @@
 // Table coordinates: each mapping stands beside its inverse. x in 0..1 spans the centres of the first and the last
 // texel, so that the ends of a range are stored exactly.
+import package::lib::air::Air;
 import package::lib::geometry::{PI, horizon_distance_squared, distance_to_top, edge_zenith_angle};
 
 fn texel_to_unit(texel: u32, size: u32) -> f32 {
@@ -39,7 +40,11 @@ fn transmittance_point(radius_m: f32, top_m: f32, unit: vec2f) -> HeightCosine {
     return HeightCosine(h, select(clamp(mu, -1.0, 1.0), 1.0, d <= 0.0));
 }
 
-// Multiple scattering: x is the sun's cosine, finer about the horizon; y is the height, finer towards the ground.
+// Multiple scattering: x is the sun's cosine, finer about the horizon; y is the height. Above the haze it is finer
+// towards its lower end; the haze, where there is one, has the first HAZE_ROWS rows for itself, evenly, so that nothing
+// bleeds over its top.
+const HAZE_ROWS = 12u;
+
 fn sun_cosine_unit(mu_s: f32) -> f32 {
     return 0.5 + 0.5 * sign(mu_s) * sqrt(abs(mu_s));
 }
@@ -49,12 +54,35 @@ fn sun_cosine_point(x: f32) -> f32 {
     return s * abs(s);
 }
 
-fn multi_scattering_unit(top_m: f32, p: HeightCosine) -> vec2f {
-    return vec2f(sun_cosine_unit(p.mu), sqrt(clamp(p.altitude_m / top_m, 0.0, 1.0)));
+// x as a unit; y as a texture's coordinate.
+fn multi_scattering_unit(air: Air, p: HeightCosine, in_haze: bool, rows: u32) -> vec2f {
+    let x = sun_cosine_unit(p.mu);
+    if air.haze_extinction_per_m <= 0.0 {
+        return vec2f(x, unit_to_coordinate(sqrt(clamp(p.altitude_m / air.top_m, 0.0, 1.0)), rows));
+    }
+    let first = select(HAZE_ROWS, 0u, in_haze);
+    let count = select(rows - HAZE_ROWS, HAZE_ROWS, in_haze);
+    let above = sqrt(clamp((p.altitude_m - air.haze_top_m) / max(air.top_m - air.haze_top_m, 1.0), 0.0, 1.0));
+    let y = select(above, clamp(p.altitude_m / air.haze_top_m, 0.0, 1.0), in_haze);
+    return vec2f(x, (f32(first) + 0.5 + y * f32(count - 1u)) / f32(rows));
 }
 
-fn multi_scattering_point(top_m: f32, unit: vec2f) -> HeightCosine {
-    return HeightCosine(unit.y * unit.y * top_m, sun_cosine_point(unit.x));
+struct MultiScatteringPoint {
+    altitude_m: f32,
+    mu_s: f32,
+    in_haze: bool,
+}
+
+fn multi_scattering_point(air: Air, texel: vec2u, size: vec2u) -> MultiScatteringPoint {
+    let mu_s = sun_cosine_point(texel_to_unit(texel.x, size.x));
+    let hazy = air.haze_extinction_per_m > 0.0;
+    if hazy && texel.y < HAZE_ROWS {
+        return MultiScatteringPoint(texel_to_unit(texel.y, HAZE_ROWS) * air.haze_top_m, mu_s, true);
+    }
+    let first = select(0u, HAZE_ROWS, hazy);
+    let floor_m = select(0.0, air.haze_top_m, hazy);
+    let y = texel_to_unit(texel.y - first, size.y - first);
+    return MultiScatteringPoint(floor_m + y * y * (air.top_m - floor_m), mu_s, false);
 }
 
 // Sky view, seen from one altitude. x is the azimuth from the sun over π: the sky is even in it. The lower half of the

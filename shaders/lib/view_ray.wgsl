@@ -8,7 +8,9 @@ struct Observer {
     // Cosine and sine of the sun's angle with the observer's zenith.
     mu_s: f32,
     sin_s: f32,
+    // Along the ray of view, and along each ray to the sun where those are integrated on the way.
     steps: u32,
+    sun_steps: u32,
 }
 
 // The stretch inside the air of the ray with cosines `mu` to the zenith and `nu` to the sun; it ends on the ground

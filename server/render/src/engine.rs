@@ -5,15 +5,16 @@ use crate::{
     error::Error,
     gpu::{AdapterChoice, Gpu},
     kernel::Recorder,
+    method::Plan,
     passes::{
         Table,
         exposure::{EXPOSURE_BYTES, ExposurePass, meter_size},
-        multi_scattering::{MultiScattering, MultiScatteringPass},
+        multi_scattering::{MultiScattering, MultiScatteringPass, Wanted},
         probe::{Probe, ProbeInputs, Seen, Sight},
         sky::{Sky, SkyInputs},
         sky_view::SkyView,
         tone::Tone,
-        transmittance::{SUN_STEPS, Transmittance},
+        transmittance::Transmittance,
     },
     screen::{PICTURE_BYTES, RADIANCE_BYTES, Screen},
     sunlight::direct_normal,
@@ -22,7 +23,7 @@ use crate::{
 use glam::UVec2;
 use std::sync::Arc;
 use welkin_scene::{
-    Exposure, Quality, Scene, Sun,
+    Exposure, Method, Quality, Scene, Sun,
     renderer::{FrameFacts, FrameOrder, Output, PassTime},
 };
 
@@ -42,6 +43,7 @@ pub(crate) struct Engine {
 
 /// What the air and the observer give, before any pixel.
 pub(crate) struct Tables {
+    pub(crate) plan: Plan,
     pub(crate) air: Part,
     pub(crate) stand: Standpoint,
     pub(crate) transmittance: Arc<Table>,
@@ -54,7 +56,8 @@ pub(crate) struct Prepared {
     view: Part,
     camera: CameraUniform,
     camera_part: Part,
-    sky_view: Arc<Table>,
+    observer: Part,
+    sky_view: Option<Arc<Table>>,
     exposure: Arc<wgpu::Buffer>,
     /// Irradiance of the visible disc, W/m².
     sunlight: [f64; 3],
@@ -73,11 +76,11 @@ impl Engine {
             Ok((
                 Transmittance::new(&gpu),
                 MultiScatteringPass::new(&gpu),
-                SkyView::new(&gpu),
-                Sky::new(&gpu),
+                SkyView::new(),
+                Sky::new(),
                 ExposurePass::new(&gpu),
-                Tone::default(),
-                Probe::new(&gpu),
+                Tone::new(),
+                Probe::new(),
             ))
         })?;
         let (transmittance, multi_scattering, sky_view, sky, exposure, tone, probe) = passes;
@@ -102,11 +105,14 @@ impl Engine {
         quality: Quality,
     ) -> Tables {
         let air = AirUniform::new(scene);
-        let wanted = air.multiple > 0.0;
+        let wanted = Wanted::new(scene, quality, air.multiple > 0.0);
+        let plan = Plan::new(scene, &air);
+        let asymmetry = f64::from(air.mie_asymmetry);
         let air = Part::new(&air);
-        let transmittance = transmittance.run(recorder, &air, SUN_STEPS);
-        let multi_scattering = multi_scattering.run(recorder, &air, &transmittance, quality, wanted);
+        let transmittance = transmittance.run(recorder, &air, plan.table_steps());
+        let multi_scattering = multi_scattering.run(recorder, &air, asymmetry, &transmittance, wanted);
         Tables {
+            plan,
             air,
             stand: Standpoint::new(scene),
             transmittance,
@@ -122,10 +128,13 @@ impl Engine {
             let mut recorder = Recorder::new(gpu);
             let passes = (&mut self.transmittance, &mut self.multi_scattering);
             let tables = Self::tables(passes, &mut recorder, scene, order.quality);
-            let reads = (&*tables.transmittance, &tables.multi_scattering.moments);
-            let sky_view = self
-                .sky_view
-                .run(&mut recorder, &tables.air, &tables.stand, reads, order.quality);
+            let reads = (&*tables.transmittance, &tables.multi_scattering.source);
+            let sky_view = (tables.plan.method == Method::Lut).then(|| {
+                let (air, stand) = (&tables.air, &tables.stand);
+                self.sky_view
+                    .run(&mut recorder, air, stand, reads, tables.plan, order.quality)
+            });
+            let observer = Part::new(&tables.stand.observer(tables.plan.pixel_steps()));
             let size_px = UVec2::new(order.width_px, order.height_px);
             let exposure = match scene.display.exposure {
                 Exposure::Auto { compensation_ev } if order.output == Output::Display => {
@@ -137,10 +146,10 @@ impl Engine {
                     let view = Part::new(&ViewUniform::new(&hidden, &tables.stand));
                     let small = meter_size(size_px);
                     let camera = Part::new(&CameraUniform::new(&scene.camera, small));
-                    let inputs = sky_inputs(&tables, &view, &camera, &sky_view);
+                    let inputs = sky_inputs(&tables, [&view, &camera, &observer], sky_view.as_deref());
                     let compensation = crate::uniforms::narrow(compensation_ev);
                     self.exposure
-                        .run(&mut recorder, &self.sky, inputs, small, compensation)
+                        .run(&mut recorder, &mut self.sky, inputs, small, compensation)
                 }
                 _ => self.exposure.none(gpu),
             };
@@ -155,6 +164,7 @@ impl Engine {
                     view,
                     camera,
                     camera_part,
+                    observer,
                     sky_view,
                     exposure,
                     sunlight,
@@ -179,7 +189,7 @@ impl Engine {
         let buffers = self.screen.fit(gpu, pixels);
         gpu.guarded(|| {
             let mut recorder = Recorder::new(gpu);
-            let inputs = sky_inputs(&frame.tables, &frame.view, &frame.camera_part, &frame.sky_view);
+            let inputs = frame.sky_inputs();
             let made_from = inputs.fingerprint(&Part::new(&tile));
             // Emptied until the commands have run.
             if buffers.holds.take() != Some(made_from) {
@@ -240,6 +250,7 @@ impl Engine {
                 air: &tables.air,
                 view: &view,
                 stand: &tables.stand,
+                plan: tables.plan,
                 transmittance: &tables.transmittance,
                 multi_scattering: &tables.multi_scattering,
             };
@@ -248,19 +259,33 @@ impl Engine {
     }
 }
 
+impl Prepared {
+    fn sky_inputs(&self) -> SkyInputs<'_> {
+        let parts = [&self.view, &self.camera_part, &self.observer];
+        sky_inputs(&self.tables, parts, self.sky_view.as_deref())
+    }
+
+    /// About how many times the work of a pixel that reads tables a pixel takes.
+    pub(crate) fn work_per_pixel(&self) -> u32 {
+        self.tables.plan.work_per_pixel()
+    }
+}
+
 fn sky_inputs<'a>(
     tables: &'a Tables,
-    view: &'a Part,
-    camera: &'a Part,
-    sky_view: &'a Table,
+    [view, camera, observer]: [&'a Part; 3],
+    sky_view: Option<&'a Table>,
 ) -> SkyInputs<'a> {
     SkyInputs {
         air: &tables.air,
         view,
         camera,
+        observer,
+        plan: tables.plan,
         transmittance: &tables.transmittance,
         irradiance: &tables.multi_scattering.irradiance,
         sky_view,
+        source: &tables.multi_scattering.source,
     }
 }
 

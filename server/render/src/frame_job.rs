@@ -12,9 +12,10 @@ use welkin_scene::renderer::{Frame, FrameOrder, Output, PassTime, Pixels};
 #[cfg(test)]
 mod tests;
 
-/// How many pixels a tile has, so that no dispatch holds the device for long. Follows the device's speed.
+/// How much work a tile may be, so that no dispatch holds the device for long. Follows the device's speed.
 #[derive(Debug)]
 pub(crate) struct TileBudget {
+    /// In pixels that read tables; those that follow rays of their own count for several.
     pixels: u32,
 }
 
@@ -23,6 +24,9 @@ const TILE_MS: std::ops::Range<f64> = 8.0..30.0;
 /// Sizes between which the budget moves, pixels. The largest keeps 24 MiB of radiance on the device.
 const TILE_PIXELS: std::ops::RangeInclusive<u32> = 1 << 13..=3 << 18;
 
+/// Fewer would leave a device's lanes idle.
+const LEAST_PIXELS: u32 = 64;
+
 impl Default for TileBudget {
     fn default() -> Self {
         Self { pixels: 1 << 18 }
@@ -30,9 +34,9 @@ impl Default for TileBudget {
 }
 
 impl TileBudget {
-    fn learn(&mut self, tile: TileUniform, ms: f64) {
+    fn learn(&mut self, tile: TileUniform, work_per_pixel: u32, ms: f64) {
         // A tile that the frame's edge cut short says nothing of larger ones.
-        let full = tile.size_px.x * tile.size_px.y > self.pixels / 2;
+        let full = tile.size_px.x * tile.size_px.y > self.pixels / work_per_pixel / 2;
         if ms > TILE_MS.end {
             self.pixels = (self.pixels / 2).max(*TILE_PIXELS.start());
         } else if ms < TILE_MS.start && full {
@@ -41,10 +45,11 @@ impl TileBudget {
     }
 
     /// The next tile: as wide as fits, then as high.
-    fn next(&self, from: UVec2, frame: UVec2) -> TileUniform {
-        let width = (frame.x - from.x).min(self.pixels.max(1));
+    fn next(&self, from: UVec2, frame: UVec2, work_per_pixel: u32) -> TileUniform {
+        let pixels = (self.pixels / work_per_pixel).max(LEAST_PIXELS.min(self.pixels));
+        let width = (frame.x - from.x).min(pixels);
         let height = if width == frame.x {
-            (self.pixels / width).clamp(1, frame.y - from.y)
+            (pixels / width).clamp(1, frame.y - from.y)
         } else {
             1
         };
@@ -110,13 +115,17 @@ impl FrameJob {
             return Ok(None);
         };
         let size = UVec2::new(self.order.width_px, self.order.height_px);
-        let tile = budget.next(self.at, size);
+        let tile = budget.next(self.at, size, prepared.work_per_pixel());
         let pixels = &mut self.pixels;
         let begun = Instant::now();
         let ((), ev100, times) = engine.tile(&self.order, prepared, tile, |bytes| {
             place(pixels, size, tile, bytes)
         })?;
-        budget.learn(tile, begun.elapsed().as_secs_f64() * 1e3);
+        budget.learn(
+            tile,
+            prepared.work_per_pixel(),
+            begun.elapsed().as_secs_f64() * 1e3,
+        );
         add_times(&mut self.passes, times);
         self.ev100 = ev100;
         self.at.x += tile.size_px.x;

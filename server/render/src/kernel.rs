@@ -112,8 +112,33 @@ impl Kernel {
     }
 }
 
+/// The variants of a shader by the values of its `override` constants, each made when it is first asked for.
+pub(crate) struct Variants {
+    shader: &'static Shader,
+    made: Vec<(Vec<(&'static str, f64)>, Kernel)>,
+}
+
+impl Variants {
+    pub(crate) const fn new(shader: &'static Shader) -> Self {
+        Self {
+            shader,
+            made: Vec::new(),
+        }
+    }
+
+    pub(crate) fn get(&mut self, gpu: &Gpu, constants: &[(&'static str, f64)]) -> &Kernel {
+        let known = self.made.iter().position(|(key, _)| key == constants);
+        let index = known.unwrap_or_else(|| {
+            let kernel = Kernel::variant(gpu, self.shader, constants);
+            self.made.push((constants.to_vec(), kernel));
+            self.made.len() - 1
+        });
+        &self.made[index].1
+    }
+}
+
 /// Most dispatches that one recording times.
-const MOST_TIMED: u32 = 32;
+const MOST_TIMED: u32 = 64;
 
 /// Commands on their way to the device, each dispatch timed where the device can.
 pub(crate) struct Recorder<'a> {

@@ -2,9 +2,9 @@
 
 pub(crate) mod night;
 
-use crate::{camera::CameraUniform, colour};
+use crate::{camera::CameraUniform, colour, method::Steps};
 use encase::{ShaderSize, ShaderType, internal::WriteInto};
-use glam::{DVec3, UVec2, Vec2, Vec3};
+use glam::{DVec3, UVec2, Vec3};
 use welkin_scene::{Atmosphere, Exposure, Haze, Orders, Scene, Sun};
 
 /// The bytes of one uniform: what a pass binds, and what its fingerprint is made of.
@@ -56,7 +56,6 @@ pub(crate) struct AirUniform {
     pub(crate) haze_extinction_per_m: f32,
     pub(crate) ground_albedo: Vec3,
     pub(crate) haze_top_m: f32,
-    pub(crate) mie_moments: Vec2,
     pub(crate) radius_m: f32,
     pub(crate) top_m: f32,
     pub(crate) multiple: f32,
@@ -102,7 +101,6 @@ impl AirUniform {
             haze_extinction_per_m: narrow(haze_extinction),
             ground_albedo: narrow3(planet.ground_albedo),
             haze_top_m: narrow(haze.top_m),
-            mie_moments: cornette_shanks_moments(mie.asymmetry),
             radius_m: narrow(planet.radius_m),
             top_m: narrow(air.top_m),
             multiple: if air.orders == Orders::Multiple && scatters {
@@ -112,15 +110,6 @@ impl AirUniform {
             },
         }
     }
-}
-
-/// Mean P_1 and P_2 of the Cornette-Shanks phase function k (1+cos²θ) HG, from those of Henyey-Greenstein, g^l, with
-/// 1+cos²θ = 4/3 + 2/3 P_2 and the products P_1 P_2 = (3 P_3 + 2 P_1)/5, P_2² = 18/35 P_4 + 2/7 P_2 + 1/5.
-pub(crate) fn cornette_shanks_moments(g: f64) -> Vec2 {
-    let k = 1.5 / (2.0 + g * g);
-    let p1 = k * (8.0 / 5.0 * g + 2.0 / 5.0 * g.powi(3));
-    let p2 = k * (4.0 / 3.0 * g * g + 2.0 / 3.0 * (18.0 / 35.0 * g.powi(4) + 2.0 / 7.0 * g * g + 1.0 / 5.0));
-    Vec2::new(narrow(p1), narrow(p2))
 }
 
 /// `Integral` of `transmittance.wgsl`.
@@ -136,6 +125,7 @@ pub(crate) struct ObserverUniform {
     pub(crate) mu_s: f32,
     pub(crate) sin_s: f32,
     pub(crate) steps: u32,
+    pub(crate) sun_steps: u32,
 }
 
 /// Cosine and sine of the angle between the sun and the observer's zenith, and the altitude.
@@ -156,12 +146,13 @@ impl Standpoint {
         }
     }
 
-    pub(crate) fn observer(&self, steps: u32) -> ObserverUniform {
+    pub(crate) fn observer(&self, steps: Steps) -> ObserverUniform {
         ObserverUniform {
             altitude_m: narrow(self.altitude_m),
             mu_s: narrow(self.up.dot(self.sun)),
             sin_s: narrow(self.up.cross(self.sun).length()),
-            steps,
+            steps: steps.view,
+            sun_steps: steps.sun,
         }
     }
 }

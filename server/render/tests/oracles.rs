@@ -114,6 +114,15 @@ fn all_orders_match_the_monte_carlo_oracle() {
             );
             let answer = probe(&renderer, scene, vec![direction]);
             let expected = triple(&row[key]);
+            if std::env::var("ROWS").is_ok() {
+                println!(
+                    "{:?} {} {} {:+.4?}",
+                    albedo,
+                    row["view_zenith_deg"],
+                    row["view_azimuth_deg"],
+                    [0, 1, 2].map(|c| answer.radiance_w_m2_sr[0][c] / expected[c] - 1.0)
+                );
+            }
             for c in 0..3 {
                 squares[c] += (answer.radiance_w_m2_sr[0][c] / expected[c] - 1.0).powi(2);
             }

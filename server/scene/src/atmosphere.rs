@@ -59,7 +59,7 @@ impl Default for Atmosphere {
 }
 
 /// How the light in the air is computed.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Method {
     /// The optical depth towards the sun is integrated anew in every step along every ray: the first approach of

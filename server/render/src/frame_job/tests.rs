@@ -90,11 +90,11 @@ fn long_and_odd_frames_are_whole() {
 fn the_largest_side_in_both_directions_would_be_cut_into_small_tiles() {
     let budget = TileBudget { pixels: 1 << 18 };
     let frame = UVec2::splat(16_384);
-    let tile = budget.next(UVec2::ZERO, frame);
+    let tile = budget.next(UVec2::ZERO, frame, 1);
     assert_eq!(tile.size_px, UVec2::new(16_384, 16));
     // Narrow tiles where one row is more than the budget.
     let budget = TileBudget { pixels: 1 << 13 };
-    let tile = budget.next(UVec2::new(8192, 5), frame);
+    let tile = budget.next(UVec2::new(8192, 5), frame, 1);
     assert_eq!(
         (tile.origin_px, tile.size_px),
         (UVec2::new(8192, 5), UVec2::new(8192, 1))
@@ -104,28 +104,34 @@ fn the_largest_side_in_both_directions_would_be_cut_into_small_tiles() {
 #[test]
 fn the_budget_follows_the_device() {
     let mut budget = TileBudget { pixels: 1 << 16 };
-    let full = budget.next(UVec2::ZERO, UVec2::splat(4096));
-    budget.learn(full, 100.0);
-    let halved = budget.next(UVec2::ZERO, UVec2::splat(4096));
+    let full = budget.next(UVec2::ZERO, UVec2::splat(4096), 1);
+    budget.learn(full, 1, 100.0);
+    let halved = budget.next(UVec2::ZERO, UVec2::splat(4096), 1);
     assert_eq!(2 * halved.size_px.y, full.size_px.y);
-    budget.learn(halved, 1.0);
-    assert_eq!(budget.next(UVec2::ZERO, UVec2::splat(4096)).size_px, full.size_px);
+    budget.learn(halved, 1, 1.0);
+    assert_eq!(
+        budget.next(UVec2::ZERO, UVec2::splat(4096), 1).size_px,
+        full.size_px
+    );
     // A cut tile that was quick says nothing.
-    let cut = budget.next(UVec2::ZERO, UVec2::new(4096, 1));
-    budget.learn(cut, 0.1);
-    assert_eq!(budget.next(UVec2::ZERO, UVec2::splat(4096)).size_px, full.size_px);
+    let cut = budget.next(UVec2::ZERO, UVec2::new(4096, 1), 1);
+    budget.learn(cut, 1, 0.1);
+    assert_eq!(
+        budget.next(UVec2::ZERO, UVec2::splat(4096), 1).size_px,
+        full.size_px
+    );
     // However slow the device, a tile has pixels; however fast, it keeps to the memory that it may have.
     for _ in 0..40 {
-        let tile = budget.next(UVec2::ZERO, UVec2::splat(4096));
-        budget.learn(tile, 1e4);
+        let tile = budget.next(UVec2::ZERO, UVec2::splat(4096), 1);
+        budget.learn(tile, 1, 1e4);
     }
-    let least = budget.next(UVec2::ZERO, UVec2::splat(4096)).size_px;
+    let least = budget.next(UVec2::ZERO, UVec2::splat(4096), 1).size_px;
     assert!(least.x * least.y >= 4096, "{least}");
     for _ in 0..40 {
-        let tile = budget.next(UVec2::ZERO, UVec2::splat(4096));
-        budget.learn(tile, 0.1);
+        let tile = budget.next(UVec2::ZERO, UVec2::splat(4096), 1);
+        budget.learn(tile, 1, 0.1);
     }
-    let most = budget.next(UVec2::ZERO, UVec2::splat(4096)).size_px;
+    let most = budget.next(UVec2::ZERO, UVec2::splat(4096), 1).size_px;
     assert!(most.x * most.y <= 3 << 18, "{most}");
 }
 

@@ -47,7 +47,7 @@ impl ExposurePass {
     pub(crate) fn run(
         &mut self,
         recorder: &mut Recorder<'_>,
-        sky: &Sky,
+        sky: &mut Sky,
         inputs: SkyInputs<'_>,
         size_px: UVec2,
         compensation_ev: f32,

@@ -5,114 +5,223 @@ use crate::{
     gpu::Gpu,
     kernel::{Bind, Kernel, Recorder},
     memo::{Fingerprint, Memo},
+    phase::convolved,
+    quadrature::gauss_legendre,
     shader,
-    uniforms::{OrderUniform, Part},
+    uniforms::{OrderUniform, Part, narrow},
 };
 use std::sync::Arc;
-use welkin_scene::Quality;
+use welkin_scene::{Quality, Scene};
 
-/// Orders that are followed; the rest is a geometric series.
-const ORDERS: u32 = 4;
+/// Azimuths of view, as in `lib/source.wgsl`.
+const VIEW_AZIMUTHS: u32 = 8;
 
-/// Moments of the light about a point.
-const MOMENTS: u32 = 6;
+/// Heights in the haze, as in `lib/tables.wgsl`.
+const HAZE_ROWS: u32 = 12;
 
-/// Moments of the light by sun and height (layers as in `lib/moments.wgsl`), and irradiance of the ground by sun, for a sun of unit irradiance.
+/// Angles of the convolved phase function.
+const ANGLES: usize = 256;
+
+/// The source function by sun, height and direction of view (`lib/source.wgsl`), and the irradiance of the ground by
+/// sun, for a sun of unit irradiance.
 pub(crate) struct MultiScattering {
-    pub(crate) moments: Table,
+    pub(crate) source: Table,
     pub(crate) irradiance: Table,
 }
 
-pub(crate) struct MultiScatteringPass {
-    first: Kernel,
-    later: Kernel,
-    memo: Memo<MultiScattering>,
+/// What a scene asks for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub(crate) struct Wanted {
+    quality: Quality,
+    /// False: the first order alone, or no air.
+    multiple: bool,
+    haze: bool,
+    /// Orders that are followed; the rest is a geometric series.
+    orders: u32,
 }
 
-/// Sun cosines, heights, and steps along each ray.
-const fn size(quality: Quality) -> ([u32; 2], u32) {
-    match quality {
-        Quality::Preview => ([24, 12], 10),
-        Quality::Final => ([48, 24], 14),
+impl Wanted {
+    pub(crate) fn new(scene: &Scene, quality: Quality, multiple: bool) -> Self {
+        let haze_depth = scene
+            .haze
+            .as_ref()
+            .map_or(0.0, |haze| haze.extinction() * haze.top_m);
+        // Light goes through a depth τ of haze in about τ² scatterings, most of which change it little.
+        let orders = [(0.5, 4), (2.0, 8), (8.0, 16)]
+            .into_iter()
+            .find(|(depth, _)| haze_depth < *depth)
+            .map_or(32, |(_, orders)| orders);
+        Self {
+            quality,
+            multiple,
+            haze: haze_depth > 0.0,
+            orders,
+        }
     }
+}
+
+/// How finely one quality computes.
+#[derive(Clone, Copy)]
+struct Detail {
+    suns: u32,
+    heights: u32,
+    view_cosines: u32,
+    /// Nodes on either side of the horizon, and azimuths on one side of the sun.
+    polar: u32,
+    azimuths: u32,
+    steps: u32,
+}
+
+const PREVIEW: Detail = Detail {
+    suns: 24,
+    heights: 12,
+    view_cosines: 8,
+    polar: 6,
+    azimuths: 6,
+    steps: 10,
+};
+const FINAL: Detail = Detail {
+    suns: 48,
+    heights: 24,
+    view_cosines: 12,
+    polar: 8,
+    azimuths: 8,
+    steps: 20,
+};
+
+struct Kernels {
+    detail: Detail,
+    first: Kernel,
+    later: Kernel,
+}
+
+impl Kernels {
+    fn new(gpu: &Gpu, detail: Detail) -> Self {
+        let variant = |first: f64| {
+            let constants = [
+                ("FIRST", first),
+                ("POLAR", f64::from(detail.polar)),
+                ("AZIMUTHS", f64::from(detail.azimuths)),
+            ];
+            Kernel::variant(gpu, &shader::MULTI_SCATTERING, &constants)
+        };
+        Self {
+            detail,
+            first: variant(1.0),
+            later: variant(0.0),
+        }
+    }
+}
+
+pub(crate) struct MultiScatteringPass {
+    preview: Kernels,
+    full: Kernels,
+    memo: Memo<MultiScattering>,
 }
 
 impl MultiScatteringPass {
     pub(crate) fn new(gpu: &Gpu) -> Self {
-        let variant = |first: f64| Kernel::variant(gpu, &shader::MULTI_SCATTERING, &[("FIRST", first)]);
         Self {
-            first: variant(1.0),
-            later: variant(0.0),
+            preview: Kernels::new(gpu, PREVIEW),
+            full: Kernels::new(gpu, FINAL),
             memo: Memo::new(8),
         }
     }
 
-    /// `wanted` false gives zeros: the first order alone, or no air.
+    /// `asymmetry` is that of the aerosols' phase function.
     pub(crate) fn run(
         &mut self,
         recorder: &mut Recorder<'_>,
         air: &Part,
+        asymmetry: f64,
         transmittance: &Table,
-        quality: Quality,
-        wanted: bool,
+        wanted: Wanted,
     ) -> Arc<MultiScattering> {
-        let made_from = Fingerprint::of(("multi_scattering", air, transmittance.made_from, quality, wanted));
+        let made_from = Fingerprint::of(("multi_scattering", air, transmittance.made_from, wanted));
+        let kernels = match wanted.quality {
+            Quality::Preview => &self.preview,
+            Quality::Final => &self.full,
+        };
         self.memo.get_or(made_from, || {
+            let made = |view| Table { view, made_from };
             let gpu = recorder.gpu;
-            if !wanted {
-                let moments = Table {
-                    view: gpu.table("no multiple scattering", 2, 2, MOMENTS),
-                    made_from,
+            if !wanted.multiple {
+                return MultiScattering {
+                    source: made(gpu.table("no source", 2, 2, 2 * VIEW_AZIMUTHS)),
+                    irradiance: made(gpu.table("no irradiance", 2, 1, 1)),
                 };
-                let irradiance = Table {
-                    view: gpu.table("no sky irradiance", 2, 1, 1),
-                    made_from,
-                };
-                return MultiScattering { moments, irradiance };
             }
-            let ([width, height], steps) = size(quality);
-            let air = air.upload(gpu, "air");
-            let cells = 2 * u64::from((MOMENTS + 1) * width * height);
-            let sums = gpu.buffer("sums of the orders", 16 * cells, wgpu::BufferUsages::STORAGE);
-            let new_pair = || {
-                (
-                    gpu.table("multi_scattering", width, height, MOMENTS),
-                    gpu.table("irradiance", width, 1, 1),
-                )
-            };
-            let mut before = new_pair();
-            for index in 1..=ORDERS {
-                let order = OrderUniform {
-                    last: u32::from(index == ORDERS),
-                    steps,
-                };
-                let order = Part::new(&order).upload(gpu, "order");
-                let after = new_pair();
-                let binds = [
-                    Bind::Buffer(&air),
-                    Bind::Buffer(&order),
-                    Bind::Table(&transmittance.view),
-                    Bind::LinearClamp,
-                    Bind::Table(&before.0),
-                    Bind::Table(&before.1),
-                    Bind::Table(&after.0),
-                    Bind::Table(&after.1),
-                    Bind::Buffer(&sums),
-                ];
-                let kernel = if index == 1 { &self.first } else { &self.later };
-                recorder.dispatch_groups(kernel, &binds, [width, height, 1]);
-                before = after;
-            }
+            let (source, irradiance) = follow(recorder, kernels, air, asymmetry, transmittance, wanted);
             MultiScattering {
-                moments: Table {
-                    view: before.0,
-                    made_from,
-                },
-                irradiance: Table {
-                    view: before.1,
-                    made_from,
-                },
+                source: made(source),
+                irradiance: made(irradiance),
             }
         })
     }
+}
+
+/// The nodes of the polar angle with their weights, and the convolved phase function.
+pub(crate) fn lists(gpu: &Gpu, polar: u32, asymmetry: f64) -> [wgpu::Buffer; 2] {
+    let list = |label: &str, values: &[f32]| {
+        gpu.filled(label, bytemuck::cast_slice(values), wgpu::BufferUsages::STORAGE)
+    };
+    let nodes: Vec<f32> = gauss_legendre(polar as usize)
+        .into_iter()
+        .flat_map(|(x, weight)| [narrow(x), narrow(weight)])
+        .collect();
+    [
+        list("nodes", &nodes),
+        list("twice scattered", &convolved(asymmetry, ANGLES)),
+    ]
+}
+
+/// One dispatch an order.
+fn follow(
+    recorder: &mut Recorder<'_>,
+    kernels: &Kernels,
+    air: &Part,
+    asymmetry: f64,
+    transmittance: &Table,
+    wanted: Wanted,
+) -> (wgpu::TextureView, wgpu::TextureView) {
+    let gpu = recorder.gpu;
+    let detail = kernels.detail;
+    let rows = detail.heights + if wanted.haze { HAZE_ROWS } else { 0 };
+    let views = detail.view_cosines * VIEW_AZIMUTHS;
+    let [nodes, twice_scattered] = lists(gpu, detail.polar, asymmetry);
+    let air = air.upload(gpu, "air");
+    let cells = 2 * u64::from((views + 1) * detail.suns * rows);
+    let sums = gpu.buffer("sums of the orders", 16 * cells, wgpu::BufferUsages::STORAGE);
+    let new_pair = || {
+        (
+            gpu.table("multi_scattering", detail.suns, rows, views),
+            gpu.table("irradiance", detail.suns, 1, 1),
+        )
+    };
+    let mut before = new_pair();
+    let mut after = new_pair();
+    for index in 1..=wanted.orders {
+        let order = OrderUniform {
+            last: u32::from(index == wanted.orders),
+            steps: detail.steps,
+        };
+        let order = Part::new(&order).upload(gpu, "order");
+        let binds = [
+            Bind::Buffer(&air),
+            Bind::Buffer(&order),
+            Bind::Table(&transmittance.view),
+            Bind::LinearClamp,
+            Bind::Table(&before.0),
+            Bind::Table(&before.1),
+            Bind::Table(&after.0),
+            Bind::Table(&after.1),
+            Bind::Buffer(&sums),
+            Bind::Buffer(&nodes),
+            Bind::Buffer(&twice_scattered),
+        ];
+        let kernel = if index == 1 { &kernels.first } else { &kernels.later };
+        recorder.dispatch_groups(kernel, &binds, [detail.suns, rows, 1]);
+        std::mem::swap(&mut before, &mut after);
+    }
+    before
 }

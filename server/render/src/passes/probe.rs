@@ -4,20 +4,19 @@ use super::{Table, multi_scattering::MultiScattering};
 use crate::{
     error::Error,
     gpu::Gpu,
-    kernel::{Bind, Kernel, Recorder},
+    kernel::{Bind, Recorder, Variants},
+    method::Plan,
     shader,
     uniforms::{Part, Standpoint},
 };
 use glam::DVec3;
-
-/// Steps along each ray.
-const STEPS: u32 = 256;
+use welkin_scene::Method;
 
 /// Most directions in one dispatch: about as much work as one tile of a frame.
 pub(crate) const CHUNK: usize = 8192;
 
 pub(crate) struct Probe {
-    kernel: Kernel,
+    kernels: Variants,
 }
 
 /// A direction to probe.
@@ -41,20 +40,21 @@ pub(crate) struct ProbeInputs<'a> {
     pub(crate) air: &'a Part,
     pub(crate) view: &'a Part,
     pub(crate) stand: &'a Standpoint,
+    pub(crate) plan: Plan,
     pub(crate) transmittance: &'a Table,
     pub(crate) multi_scattering: &'a MultiScattering,
 }
 
 impl Probe {
-    pub(crate) fn new(gpu: &Gpu) -> Self {
+    pub(crate) fn new() -> Self {
         Self {
-            kernel: Kernel::new(gpu, &shader::PROBE),
+            kernels: Variants::new(&shader::PROBE),
         }
     }
 
     /// One answer a direction, at most [`CHUNK`] of them. Waits for the device.
     pub(crate) fn run(
-        &self,
+        &mut self,
         gpu: &Gpu,
         inputs: ProbeInputs<'_>,
         sights: &[Sight],
@@ -88,7 +88,7 @@ impl Probe {
         );
         let air = inputs.air.upload(gpu, "air");
         let view = inputs.view.upload(gpu, "view");
-        let observer = Part::new(&inputs.stand.observer(STEPS)).upload(gpu, "observer");
+        let observer = Part::new(&inputs.stand.observer(inputs.plan.probe_steps())).upload(gpu, "observer");
         let binds = [
             Bind::Buffer(&air),
             Bind::Buffer(&view),
@@ -96,13 +96,19 @@ impl Probe {
             Bind::Table(&inputs.transmittance.view),
             Bind::LinearClamp,
             Bind::Table(&inputs.multi_scattering.irradiance.view),
-            Bind::Table(&inputs.multi_scattering.moments.view),
+            Bind::Table(&inputs.multi_scattering.source.view),
             Bind::Buffer(&directions),
             Bind::Buffer(&answers),
         ];
         let mut recorder = Recorder::new(gpu);
         let threads = u32::try_from(packed.len()).unwrap_or(u32::MAX);
-        recorder.dispatch(&self.kernel, &binds, [threads, 1, 1]);
+        let nested = inputs.plan.method == Method::Nested;
+        let constants = [
+            ("MULTIPLE", f64::from(u8::from(inputs.plan.multiple))),
+            ("NESTED", f64::from(u8::from(nested))),
+        ];
+        let kernel = self.kernels.get(gpu, &constants);
+        recorder.dispatch(kernel, &binds, [threads, 1, 1]);
         recorder
             .encoder
             .copy_buffer_to_buffer(&answers, 0, &readable, 0, size);

@@ -2,15 +2,15 @@
 
 use super::Table;
 use crate::{
-    gpu::Gpu,
-    kernel::{Bind, Kernel, Recorder},
+    kernel::{Bind, Recorder, Variants},
     memo::Fingerprint,
+    method::Plan,
     shader,
     uniforms::{Part, TileUniform},
 };
 
 pub(crate) struct Sky {
-    kernel: Kernel,
+    kernels: Variants,
 }
 
 /// What the pass reads.
@@ -19,9 +19,13 @@ pub(crate) struct SkyInputs<'a> {
     pub(crate) air: &'a Part,
     pub(crate) view: &'a Part,
     pub(crate) camera: &'a Part,
+    pub(crate) observer: &'a Part,
+    pub(crate) plan: Plan,
     pub(crate) transmittance: &'a Table,
     pub(crate) irradiance: &'a Table,
-    pub(crate) sky_view: &'a Table,
+    /// None where each pixel's ray is followed.
+    pub(crate) sky_view: Option<&'a Table>,
+    pub(crate) source: &'a Table,
 }
 
 impl SkyInputs<'_> {
@@ -29,22 +33,24 @@ impl SkyInputs<'_> {
         let tables = (
             self.transmittance.made_from,
             self.irradiance.made_from,
-            self.sky_view.made_from,
+            self.source.made_from,
+            self.sky_view.map(|table| table.made_from),
         );
-        Fingerprint::of(("sky", self.air, self.view, self.camera, tile, tables))
+        let parts = (self.air, self.view, self.camera, self.observer, tile);
+        Fingerprint::of(("sky", self.plan, parts, tables))
     }
 }
 
 impl Sky {
-    pub(crate) fn new(gpu: &Gpu) -> Self {
+    pub(crate) fn new() -> Self {
         Self {
-            kernel: Kernel::new(gpu, &shader::SKY),
+            kernels: Variants::new(&shader::SKY),
         }
     }
 
     /// Writes one tile into `radiance`, four floats a pixel.
     pub(crate) fn run(
-        &self,
+        &mut self,
         recorder: &mut Recorder<'_>,
         inputs: SkyInputs<'_>,
         tile: TileUniform,
@@ -54,18 +60,26 @@ impl Sky {
         let air = inputs.air.upload(gpu, "air");
         let view = inputs.view.upload(gpu, "view");
         let camera = inputs.camera.upload(gpu, "camera");
+        let observer = inputs.observer.upload(gpu, "observer");
         let place = Part::new(&tile).upload(gpu, "tile");
         let binds = [
             Bind::Buffer(&air),
             Bind::Buffer(&view),
             Bind::Buffer(&camera),
             Bind::Buffer(&place),
+            Bind::Buffer(&observer),
             Bind::Table(&inputs.transmittance.view),
             Bind::LinearClamp,
             Bind::Table(&inputs.irradiance.view),
-            Bind::Table(&inputs.sky_view.view),
+            Bind::Table(&inputs.sky_view.unwrap_or(inputs.source).view),
+            Bind::Table(&inputs.source.view),
             Bind::Buffer(radiance),
         ];
-        recorder.dispatch(&self.kernel, &binds, [tile.size_px.x, tile.size_px.y, 1]);
+        let constants = [
+            ("METHOD", inputs.plan.method_code()),
+            ("MULTIPLE", f64::from(u8::from(inputs.plan.multiple))),
+        ];
+        let kernel = self.kernels.get(gpu, &constants);
+        recorder.dispatch(kernel, &binds, [tile.size_px.x, tile.size_px.y, 1]);
     }
 }

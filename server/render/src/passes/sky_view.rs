@@ -2,9 +2,9 @@
 
 use super::Table;
 use crate::{
-    gpu::Gpu,
-    kernel::{Bind, Kernel, Recorder},
+    kernel::{Bind, Recorder, Variants},
     memo::{Fingerprint, Memo},
+    method::Plan,
     shader,
     uniforms::{Part, Standpoint},
 };
@@ -12,22 +12,22 @@ use std::sync::Arc;
 use welkin_scene::Quality;
 
 pub(crate) struct SkyView {
-    kernel: Kernel,
+    kernels: Variants,
     memo: Memo<Table>,
 }
 
-/// Azimuths over half the sky, rows (half below the horizon, half above), and steps along each ray.
-const fn size(quality: Quality) -> ([u32; 2], u32) {
+/// Azimuths over half the sky, and rows, half below the horizon, half above.
+const fn size(quality: Quality) -> [u32; 2] {
     match quality {
-        Quality::Preview => ([32, 128], 32),
-        Quality::Final => ([48, 224], 48),
+        Quality::Preview => [32, 128],
+        Quality::Final => [48, 224],
     }
 }
 
 impl SkyView {
-    pub(crate) fn new(gpu: &Gpu) -> Self {
+    pub(crate) fn new() -> Self {
         Self {
-            kernel: Kernel::new(gpu, &shader::SKY_VIEW),
+            kernels: Variants::new(&shader::SKY_VIEW),
             memo: Memo::new(16),
         }
     }
@@ -38,12 +38,13 @@ impl SkyView {
         air: &Part,
         stand: &Standpoint,
         tables: (&Table, &Table),
+        plan: Plan,
         quality: Quality,
     ) -> Arc<Table> {
-        let (transmittance, multi_scattering) = tables;
-        let ([width, height], steps) = size(quality);
-        let observer = Part::new(&stand.observer(steps));
-        let reads = (transmittance.made_from, multi_scattering.made_from);
+        let (transmittance, source) = tables;
+        let [width, height] = size(quality);
+        let observer = Part::new(&stand.observer(plan.sky_view_steps(quality)));
+        let reads = (transmittance.made_from, source.made_from);
         let made_from = Fingerprint::of(("sky_view", air, &observer, reads, quality));
         self.memo.get_or(made_from, || {
             let gpu = recorder.gpu;
@@ -54,10 +55,13 @@ impl SkyView {
                 Bind::Buffer(&observer),
                 Bind::Table(&transmittance.view),
                 Bind::LinearClamp,
-                Bind::Table(&multi_scattering.view),
+                Bind::Table(&source.view),
                 Bind::Table(&view),
             ];
-            recorder.dispatch(&self.kernel, &binds, [width, height, 1]);
+            let kernel = self
+                .kernels
+                .get(gpu, &[("MULTIPLE", f64::from(u8::from(plan.multiple)))]);
+            recorder.dispatch(kernel, &binds, [width, height, 1]);
             Table { view, made_from }
         })
     }

@@ -1,23 +1,27 @@
 //! From radiance to the picture.
 
 use crate::{
-    kernel::{Bind, Kernel, Recorder},
+    kernel::{Bind, Recorder, Variants},
     shader,
     uniforms::{Part, ToneUniform},
 };
-use std::cell::OnceCell;
 use welkin_scene::ToneCurve;
 
-/// One variant of the shader for each curve, made when first asked for.
-#[derive(Default)]
 pub(crate) struct Tone {
-    variants: [OnceCell<Kernel>; 4],
+    /// By curve.
+    kernels: Variants,
 }
 
 impl Tone {
+    pub(crate) const fn new() -> Self {
+        Self {
+            kernels: Variants::new(&shader::TONE),
+        }
+    }
+
     /// Writes one tile of the picture, four bytes a pixel.
     pub(crate) fn run(
-        &self,
+        &mut self,
         recorder: &mut Recorder<'_>,
         curve: ToneCurve,
         settings: &ToneUniform,
@@ -31,8 +35,7 @@ impl Tone {
             ToneCurve::Aces => 2,
             ToneCurve::Agx => 3,
         };
-        let kernel = self.variants[usize::from(code)]
-            .get_or_init(|| Kernel::variant(recorder.gpu, &shader::TONE, &[("CURVE", f64::from(code))]));
+        let kernel = self.kernels.get(recorder.gpu, &[("CURVE", f64::from(code))]);
         let uniform = Part::new(settings).upload(recorder.gpu, "tone");
         let binds = [
             Bind::Buffer(&uniform),

@@ -13,9 +13,6 @@ use std::sync::Arc;
 /// Directions and heights. Bruneton's size with twice the heights: aerosols lie in the lowest rows.
 const SIZE: [u32; 2] = [256, 128];
 
-/// Steps of each integral where the scene does not say: within 0.01 % for the Earth.
-pub(crate) const SUN_STEPS: u32 = 64;
-
 pub(crate) struct Transmittance {
     kernel: Kernel,
     memo: Memo<Table>,

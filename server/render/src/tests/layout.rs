@@ -136,7 +136,6 @@ fn air() {
             haze_extinction_per_m: f32,
             ground_albedo: vec3,
             haze_top_m: f32,
-            mie_moments: vec2,
             radius_m: f32,
             top_m: f32,
             multiple: f32,
@@ -161,10 +160,16 @@ fn observer() {
             altitude_m: f32,
             mu_s: f32,
             sin_s: f32,
-            steps: u32
+            steps: u32,
+            sun_steps: u32
         }
     );
-    check(&[&shader::SKY_VIEW, &shader::PROBE], "Observer", &part, &f);
+    check(
+        &[&shader::SKY_VIEW, &shader::SKY, &shader::PROBE],
+        "Observer",
+        &part,
+        &f,
+    );
 }
 
 #[test]
@@ -292,6 +297,7 @@ fn every_uniform_is_tested() {
         ("sky", "View"),
         ("sky", "Camera"),
         ("sky", "Tile"),
+        ("sky", "Observer"),
         ("exposure", "Meter"),
         ("tone", "Tone"),
         ("probe", "Air"),

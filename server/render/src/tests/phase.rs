@@ -3,8 +3,8 @@
 use super::{engine, evaluate};
 use crate::{
     cpu::phase::{cornette_shanks, rayleigh, rings},
+    phase::{convolved, cornette_shanks_moments},
     shader,
-    uniforms::cornette_shanks_moments,
 };
 
 const ASYMMETRIES: [f64; 9] = [-0.9, -0.5, 0.0, 0.3, 0.7, 0.76, 0.8, 0.95, 0.999];
@@ -27,22 +27,38 @@ fn the_moments_are_those_of_the_phase_function() {
         let p2: f64 = rings()
             .map(|(c, sr)| sr * cornette_shanks(c, g) * 0.5 * (3.0 * c * c - 1.0))
             .sum();
-        let moments = cornette_shanks_moments(g);
-        // The moments are f32.
-        assert!(
-            (f64::from(moments.x) - p1).abs() < 1e-6,
-            "g = {g}: p1 {moments} {p1}"
-        );
-        assert!(
-            (f64::from(moments.y) - p2).abs() < 1e-6,
-            "g = {g}: p2 {moments} {p2}"
-        );
+        let moments: Vec<f64> = cornette_shanks_moments(g).take(3).collect();
+        // The quadrature's own error.
+        assert!((moments[0] - 1.0).abs() < 1e-12, "g = {g}: {moments:?}");
+        assert!((moments[1] - p1).abs() < 1e-6, "g = {g}: p1 {moments:?} {p1}");
+        assert!((moments[2] - p2).abs() < 1e-6, "g = {g}: p2 {moments:?} {p2}");
     }
-    // The molecules' second moment, as lib/moments.wgsl has it.
-    let p2: f64 = rings()
-        .map(|(c, sr)| sr * rayleigh(c) * 0.5 * (3.0 * c * c - 1.0))
-        .sum();
-    assert!((p2 - 0.1).abs() < 1e-9, "{p2}");
+}
+
+/// ∫ p(ω·a) p(ω·b) dω by brute force, about the axis a.
+#[test]
+fn the_convolved_phase_function_is_the_integral() {
+    for g in [-0.5, 0.0, 0.5, 0.76, 0.9] {
+        let list = convolved(g, 181);
+        for degrees in [0_usize, 3, 20, 60, 120, 180] {
+            let (sin_b, cos_b) = (degrees as f64).to_radians().sin_cos();
+            let mut sum = 0.0;
+            for (cos, sr) in rings().step_by(17) {
+                let sin = (1.0 - cos * cos).max(0.0).sqrt();
+                for k in 0..180 {
+                    let nu = cos * cos_b + sin * sin_b * (f64::from(k) + 0.5).to_radians().cos();
+                    sum += sr * 17.0 / 180.0 * cornette_shanks(cos, g) * cornette_shanks(nu, g);
+                }
+            }
+            // Every seventeenth ring, on either side of the equator in turn, is a coarser quadrature.
+            let off = f64::from(list[degrees]) / sum - 1.0;
+            assert!(
+                off.abs() < 5e-3,
+                "g = {g} at {degrees}°: {} for {sum}",
+                list[degrees]
+            );
+        }
+    }
 }
 
 #[test]

@@ -5,11 +5,11 @@ use crate::{
     cpu::air::optical_depth_to_space,
     gpu::Gpu,
     kernel::Recorder,
-    passes::transmittance::{SUN_STEPS, Transmittance},
+    passes::transmittance::Transmittance,
     shader,
     uniforms::{AirUniform, Part},
 };
-use welkin_scene::Scene;
+use welkin_scene::{Haze, Scene};
 
 const RADIUS_M: f32 = 6.36e6;
 const TOP_M: f32 = 1e5;
@@ -44,32 +44,48 @@ fn transmittance_texels_come_back() {
 fn multi_scattering_texels_come_back() {
     let engine = engine();
     let (width, height) = (64_u32, 32_u32);
-    let unit = |i: u32, n: u32| i as f32 / (n - 1) as f32;
     let rows: Vec<[f32; 8]> = (0..height)
-        .flat_map(|y| {
-            (0..width).map(move |x| [unit(x, width), unit(y, height), 0.0, 0.0, 0.0, 0.0, 0.0, 0.0])
-        })
+        .flat_map(|y| (0..width).map(move |x| [x as f32, y as f32, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]))
         .collect();
-    let round = "let p = multi_scattering_point(1e5, a.xy);
-        x = vec4f(multi_scattering_unit(1e5, p), p.altitude_m, p.mu);";
-    for (row, found) in rows.iter().zip(evaluate(
-        &engine.gpu,
-        &shader::MULTI_SCATTERING,
-        round,
-        &rows,
-        &[],
-    )) {
-        // Roundings of a square and its root.
-        assert!(
-            (found[0] - row[0]).abs() < 1e-6 && (found[1] - row[1]).abs() < 1e-6,
-            "{row:?} {found:?}"
-        );
-        // The ends of both axes are stored exactly: ground and top, sun at the nadir and at the zenith.
-        if row[1] == 0.0 || row[1] == 1.0 {
-            assert_eq!(found[2], row[1] * TOP_M);
-        }
-        if row[0] == 0.0 || row[0] == 1.0 {
-            assert_eq!(found[3], 2.0 * row[0] - 1.0);
+    let round = "let p = multi_scattering_point(air, vec2u(a.xy), vec2u(64u, 32u));
+        x = vec4f(multi_scattering_unit(air, HeightCosine(p.altitude_m, p.mu_s), p.in_haze, 32u), p.altitude_m, p.mu_s);
+        y.x = f32(p.in_haze);";
+    for haze in [None, Some(Haze::default())] {
+        let scene = Scene {
+            haze: haze.clone(),
+            ..Scene::default()
+        };
+        let uniform = Part::new(&AirUniform::new(&scene)).upload(&engine.gpu, "air");
+        let binds = [(0, uniform.as_entire_binding())];
+        for (row, found) in rows.iter().zip(evaluate(
+            &engine.gpu,
+            &shader::MULTI_SCATTERING,
+            round,
+            &rows,
+            &binds,
+        )) {
+            // Roundings of a square and its root.
+            let (x, y) = (row[0] / 63.0, (row[1] + 0.5) / 32.0);
+            assert!(
+                (found[0] - x).abs() < 1e-6 && (found[1] - y).abs() < 1e-6,
+                "{row:?} {found:?}"
+            );
+            // The ends of both axes are stored exactly: ground, the haze's top on both sides, the air's top, sun at the
+            // nadir and at the zenith.
+            let haze_top_m = haze.as_ref().map_or(0.0, |haze| haze.top_m as f32);
+            let exact = match (row[1] as u32, &haze) {
+                (0, _) => Some(0.0),
+                (11 | 12, Some(_)) => Some(haze_top_m),
+                (31, _) => Some(TOP_M),
+                _ => None,
+            };
+            if let Some(altitude_m) = exact {
+                assert_eq!(found[2], altitude_m, "{row:?}");
+            }
+            assert_eq!(found[4] > 0.0, haze.is_some() && row[1] < 12.0, "{row:?}");
+            if x == 0.0 || x == 1.0 {
+                assert_eq!(found[3], 2.0 * x - 1.0);
+            }
         }
     }
 }
@@ -123,7 +139,7 @@ fn sky_view_texels_come_back() {
 fn depths(gpu: &Gpu, scene: &Scene, rays: &[(f64, f64)]) -> Vec<[f32; 8]> {
     let part = Part::new(&AirUniform::new(scene));
     let mut recorder = Recorder::new(gpu);
-    let table = Transmittance::new(gpu).run(&mut recorder, &part, SUN_STEPS);
+    let table = Transmittance::new(gpu).run(&mut recorder, &part, 64);
     recorder.finish(&[], |_| ()).unwrap();
     let uniform = part.upload(gpu, "air");
     let binds = [

@@ -1,0 +1,98 @@
+//! How the scene's method is carried out: which variants of the shaders, and how many steps.
+
+use crate::uniforms::AirUniform;
+use welkin_scene::{Method, Quality, Scene};
+
+/// Steps of an integral to the sun where the scene does not say: within 0.01 % for the Earth from a table's entry.
+const TABLE_SUN_STEPS: u32 = 64;
+/// The same inside every step of view.
+const NESTED_SUN_STEPS: u32 = 32;
+/// Steps of view where each pixel has its own ray.
+const PIXEL_STEPS: u32 = 48;
+/// Steps of the probe's rays.
+const PROBE_STEPS: u32 = 256;
+
+/// Steps along each ray of view, and along each ray to the sun.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub(crate) struct Steps {
+    pub(crate) view: u32,
+    pub(crate) sun: u32,
+}
+
+/// What a scene asks of the passes that follow light through the air.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub(crate) struct Plan {
+    pub(crate) method: Method,
+    /// True where orders beyond the first count.
+    pub(crate) multiple: bool,
+    view_steps: Option<u32>,
+    sun_steps: Option<u32>,
+}
+
+impl Plan {
+    pub(crate) fn new(scene: &Scene, air: &AirUniform) -> Self {
+        let chosen = scene.atmosphere.as_ref();
+        Self {
+            method: chosen.map_or(Method::Lut, |air| air.method),
+            multiple: air.multiple > 0.0,
+            view_steps: chosen.and_then(|air| air.view_steps),
+            sun_steps: chosen.and_then(|air| air.sun_steps),
+        }
+    }
+
+    /// For the entries of the table of optical depth.
+    pub(crate) fn table_steps(&self) -> u32 {
+        match self.method {
+            // Nothing but ground and later orders reads the table then.
+            Method::Nested => TABLE_SUN_STEPS,
+            Method::Table | Method::Lut => self.sun_steps.unwrap_or(TABLE_SUN_STEPS),
+        }
+    }
+
+    /// For the entries of the table of the sky.
+    pub(crate) fn sky_view_steps(&self, quality: Quality) -> Steps {
+        let usual = match quality {
+            Quality::Preview => 32,
+            Quality::Final => 48,
+        };
+        Steps {
+            view: self.view_steps.unwrap_or(usual),
+            sun: 0,
+        }
+    }
+
+    /// For a pixel's own ray.
+    pub(crate) fn pixel_steps(&self) -> Steps {
+        Steps {
+            view: self.view_steps.unwrap_or(PIXEL_STEPS),
+            sun: self.sun_steps.unwrap_or(NESTED_SUN_STEPS),
+        }
+    }
+
+    /// For the probe's rays.
+    pub(crate) fn probe_steps(&self) -> Steps {
+        Steps {
+            view: self.view_steps.unwrap_or(PROBE_STEPS),
+            sun: self.sun_steps.unwrap_or(TABLE_SUN_STEPS),
+        }
+    }
+
+    /// About how many times the work of a pixel that reads tables a pixel takes.
+    pub(crate) fn work_per_pixel(&self) -> u32 {
+        let Steps { view, sun } = self.pixel_steps();
+        match self.method {
+            Method::Lut => 1,
+            Method::Table => view.div_ceil(4),
+            Method::Nested => (view * sun).div_ceil(16),
+        }
+    }
+
+    /// As the shaders number it.
+    pub(crate) fn method_code(&self) -> f64 {
+        match self.method {
+            Method::Lut => 0.0,
+            Method::Table => 1.0,
+            Method::Nested => 2.0,
+        }
+    }
+}

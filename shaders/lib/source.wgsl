@@ -1,0 +1,55 @@
+// Light that is scattered at a point for the second time or a later one, as a source function: the light from all
+// round, averaged with the phase functions of what is there, J / σ_s. A table holds it by sun and height in each layer,
+// and by the direction of view, its cosine with the zenith and its azimuth from the sun, from layer to layer. It is
+// smooth in all four, since each is an integral over the sphere; the sky is even about the sun's plane.
+import package::lib::air::Air;
+import package::lib::geometry::PI;
+import package::lib::tables::{HeightCosine, multi_scattering_unit, sun_cosine_point, sun_cosine_unit, unit_to_coordinate};
+
+// Azimuths of view, evenly from 0 to π.
+const VIEW_AZIMUTHS = 8u;
+
+// Cosine of the azimuth between a direction of view and the sun. Where either stands in the zenith any will do.
+fn cosine_of_azimuth(mu: f32, mu_s: f32, nu: f32) -> f32 {
+    let sines = sqrt(max((1.0 - mu * mu) * (1.0 - mu_s * mu_s), 1e-12));
+    return clamp((nu - mu * mu_s) / sines, -1.0, 1.0);
+}
+
+fn source_function(
+    air: Air,
+    table: texture_2d_array<f32>,
+    linear_clamp: sampler,
+    altitude_m: f32,
+    in_haze: bool,
+    mu: f32,
+    mu_s: f32,
+    nu: f32,
+) -> vec3f {
+    let size = textureDimensions(table);
+    let unit = multi_scattering_unit(air, HeightCosine(altitude_m, mu_s), in_haze, size.y);
+    let at = vec2f(unit_to_coordinate(unit.x, size.x), unit.y);
+    // Between two cosines of view, linear in the cosine; between two azimuths, linear in the azimuth's cosine, which is
+    // exact for the first harmonic.
+    let view_cosines = textureNumLayers(table) / VIEW_AZIMUTHS;
+    let row = min(u32(sun_cosine_unit(mu) * f32(view_cosines - 1u)), view_cosines - 2u);
+    let lower = sun_cosine_point(f32(row) / f32(view_cosines - 1u));
+    let upper = sun_cosine_point(f32(row + 1u) / f32(view_cosines - 1u));
+    let cos_azimuth = cosine_of_azimuth(mu, mu_s, nu);
+    let spacing = PI / f32(VIEW_AZIMUTHS - 1u);
+    let column = min(u32(acos(cos_azimuth) / spacing), VIEW_AZIMUTHS - 2u);
+    let towards = cos(f32(column) * spacing);
+    let away = cos(f32(column + 1u) * spacing);
+    let share = vec2f((mu - lower) / (upper - lower), (cos_azimuth - towards) / (away - towards));
+    let layer = i32(row * VIEW_AZIMUTHS + column);
+    let below = mix(
+        textureSampleLevel(table, linear_clamp, at, layer, 0.0).rgb,
+        textureSampleLevel(table, linear_clamp, at, layer + 1, 0.0).rgb,
+        share.y,
+    );
+    let above = mix(
+        textureSampleLevel(table, linear_clamp, at, layer + i32(VIEW_AZIMUTHS), 0.0).rgb,
+        textureSampleLevel(table, linear_clamp, at, layer + i32(VIEW_AZIMUTHS) + 1, 0.0).rgb,
+        share.y,
+    );
+    return max(mix(below, above, share.x), vec3f(0.0));
+}
