@@ -106,6 +106,12 @@ impl Failure {
                 }
                 problem["errors"] = json!(problems);
             }
+            Self::Scene(SceneError::Report(fault)) => {
+                problem["pointer"] = "/metar".into();
+                problem["value"] = fault.group.as_str().into();
+                problem["allowed"] = fault.expected.as_str().into();
+                problem["group"] = json!(fault);
+            }
             Self::Scene(SceneError::Malformed { pointer, .. }) => {
                 problem["pointer"] = pointer.as_str().into()
             }

@@ -9,6 +9,7 @@ mod output;
 mod presets;
 mod probe;
 mod render;
+mod scene;
 mod schema;
 mod serve;
 mod version;
@@ -48,6 +49,8 @@ enum Command {
     Render(render::Args),
     /// Print radiance, transmittance and irradiance at exact directions, as JSON
     Probe(probe::Args),
+    /// Print a complete scene: of a document with all defaults, or of a weather report
+    Scene(scene::Args),
     /// Print the JSON Schema of a document
     Schema(schema::Args),
     /// List the presets, or print the scene of one
@@ -70,6 +73,7 @@ pub(crate) fn run() -> ExitCode {
         Command::Serve(args) => serve::run(&args, config),
         Command::Render(args) => render::run(&args, config),
         Command::Probe(args) => probe::run(&args, config),
+        Command::Scene(args) => scene::run(&args, json),
         Command::Schema(args) => schema::run(&args),
         Command::Presets(args) => presets::run(&args, json),
         Command::Devices => devices::run(json),
