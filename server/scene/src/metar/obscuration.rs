@@ -1,8 +1,8 @@
 //! What hides the view near the ground, and how it scatters.
 //!
 //! Albedo and asymmetry: water drops scatter all of the light, with g about 0.85 (Hansen and Travis 1974); haze, smoke
-//! and dust as retrieved by AERONET at Créteil, Mongu (burning savanna) and Solar Village (Dubovik et al. 2002,
-//! table 1), between its wavelengths. Volcanic ash is taken for mineral dust. Heights are of our choosing, by how each
+//! and dust about as AERONET found them at Créteil, in the Cerrado (burning savanna) and at Solar Village (Dubovik et
+//! al. 2002), between its wavelengths. Volcanic ash is taken for mineral dust. Heights are of our choosing, by how each
 //! is mixed: fog by radiation, mist below a weak inversion, the others through the boundary layer.
 
 use super::report::{Amount, Cloud, Report, Weather};
@@ -24,7 +24,7 @@ const DROPS: f64 = 0.85;
 const FOG: Obscuration = water("fog", 150.0);
 const MIST: Obscuration = water("mist", 300.0);
 const HAZE: Obscuration = dry("haze", 1500.0, [0.93, 0.935, 0.94], 0.65);
-const SMOKE: Obscuration = dry("smoke", 1500.0, [0.84, 0.862, 0.88], 0.6);
+const SMOKE: Obscuration = dry("smoke", 1500.0, [0.89, 0.9, 0.91], 0.63);
 const DUST: Obscuration = dry("dust or sand", 2000.0, [0.96, 0.94, 0.92], 0.68);
 const ASH: Obscuration = dry("volcanic ash", 3000.0, [0.96, 0.94, 0.92], 0.68);
 
