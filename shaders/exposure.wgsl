@@ -32,8 +32,8 @@ const HEADROOM_EV = 4.0;
 // beside a planet is not part of what the photographer exposes for.
 const DARK_FROM_EV = 6.0;
 const DARK_TO_EV = 10.0;
-// Below this, night stays night.
-const LEAST_EV = -5.0;
+// Below this, night stays night: a moonless, starlit scene reads -10.
+const LEAST_EV = -10.5;
 // From daylight on down the eye follows a darker sky only in part, so that dusk looks like dusk.
 const DAYLIGHT_EV = 12.5;
 const FOLLOWED = 0.85;

@@ -1,7 +1,9 @@
 // Radiance, transmittance and distance at exact directions, integrated along each ray without the sky-view table.
 import package::lib::air::Air;
-import package::lib::geometry::distance_to_sphere;
+import package::lib::airglow::{Airglow, airglow_radiance};
+import package::lib::geometry::{PI, angle_between, distance_to_sphere};
 import package::lib::light::{View, ground_radiance, scattered_radiance, sun_disc};
+import package::lib::moon::{Moon, moon_radiance, place_on_moon};
 import package::lib::scattering::{March, Scattered, scatter_along};
 import package::lib::view_ray::{Observer, enter_air};
 
@@ -9,6 +11,10 @@ import package::lib::view_ray::{Observer, enter_air};
 override MULTIPLE: bool = true;
 // True where the optical depth to the sun is integrated in every step.
 override NESTED: bool = false;
+
+// The moon's disc, and its light on air and ground.
+override MOON: bool = false;
+override MOONLIGHT: bool = false;
 
 struct Answer {
     radiance: vec3f,
@@ -24,9 +30,31 @@ struct Answer {
 @group(0) @binding(4) var linear_clamp: sampler;
 @group(0) @binding(5) var irradiance_table: texture_2d<f32>;
 @group(0) @binding(6) var source_table: texture_2d_array<f32>;
-// World direction; w is 1 where the sun's disc counts.
+// World direction; w is 1 where the discs of sun and moon count.
 @group(0) @binding(7) var<storage, read> directions: array<vec4f>;
 @group(0) @binding(8) var<storage, read_write> answers: array<Answer>;
+@group(0) @binding(9) var<uniform> glow: Airglow;
+@group(0) @binding(10) var<uniform> moon: Moon;
+// The moon in the sun's place.
+@group(0) @binding(11) var<uniform> moon_view: View;
+@group(0) @binding(12) var<uniform> moon_observer: Observer;
+@group(0) @binding(13) var moon_face: texture_2d<f32>;
+
+// A ray that nothing stops.
+const ENDLESS_M = 1e12;
+
+fn discs(direction: vec3f) -> vec3f {
+    let sun = sun_disc(view, direction);
+    if !MOON {
+        return sun;
+    }
+    let hidden = angle_between(direction, moon.direction) < moon.angular_radius;
+    var both = select(moon.sun_disc_scale, 0.0, hidden) * sun;
+    if moon.disc == 1.0 && hidden {
+        both += moon_radiance(moon, moon_face, linear_clamp, place_on_moon(moon, moon.angular_radius, direction));
+    }
+    return both;
+}
 
 @compute @workgroup_size(64)
 fn probe(@builtin(global_invocation_id) id: vec3u) {
@@ -43,10 +71,25 @@ fn probe(@builtin(global_invocation_id) id: vec3u) {
     if entry.length_m > 0.0 {
         light = scatter_along(air, entry, transmittance_table, source_table, linear_clamp, March(true, MULTIPLE, NESTED, observer.steps, observer.sun_steps));
     }
-    var behind = directions[id.x].w * sun_disc(view, direction);
-    if ground {
-        behind = ground_radiance(air, view, nu, ground_m, transmittance_table, irradiance_table, linear_clamp);
-    }
     let transmittance = exp(-light.optical_depth);
-    answers[id.x] = Answer(scattered_radiance(air, view, light, nu) + transmittance * behind, ground_m, transmittance);
+    var between = scattered_radiance(air, view, light, nu)
+        + airglow_radiance(glow, air.radius_m, view.altitude_m, mu, select(ENDLESS_M, ground_m, ground), transmittance);
+    var behind = directions[id.x].w * discs(direction);
+    if ground {
+        behind = ground_radiance(air, view, nu, ground_m, transmittance_table, irradiance_table, linear_clamp)
+            + air.ground_albedo / PI * glow.ground_irradiance;
+    }
+    if MOONLIGHT {
+        let nu_moon = clamp(dot(direction, moon_view.sun), -1.0, 1.0);
+        let moonlit = enter_air(air, moon_observer, mu, nu_moon, ground, ground_m);
+        if moonlit.length_m > 0.0 {
+            let march = March(true, MULTIPLE, NESTED, observer.steps, observer.sun_steps);
+            let scattered = scatter_along(air, moonlit, transmittance_table, source_table, linear_clamp, march);
+            between += scattered_radiance(air, moon_view, scattered, nu_moon);
+        }
+        if ground {
+            behind += ground_radiance(air, moon_view, nu_moon, ground_m, transmittance_table, irradiance_table, linear_clamp);
+        }
+    }
+    answers[id.x] = Answer(between + transmittance * behind, ground_m, transmittance);
 }

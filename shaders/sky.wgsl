@@ -1,8 +1,10 @@
 // Radiance of every pixel of one tile of the picture.
+import package::lib::airglow::{Airglow, airglow_radiance};
 import package::lib::air::Air;
 import package::lib::camera::{Camera, sight_at};
-import package::lib::geometry::{angle_between, distance_to_sphere, edge_zenith_angle, horizon_distance_squared};
+import package::lib::geometry::{PI, angle_between, distance_to_sphere, edge_zenith_angle, horizon_distance_squared};
 import package::lib::light::{View, disc_radiance, ground_radiance, scattered_radiance};
+import package::lib::moon::{Moon, corona, moon_radiance, place_on_moon};
 import package::lib::scattering::{March, Scattered, scatter_along};
 import package::lib::tables::{SkyViewRay, sky_view_coordinate, least_zenith_angle};
 import package::lib::view_ray::{Observer, enter_air};
@@ -12,6 +14,11 @@ import package::lib::view_ray::{Observer, enter_air};
 override METHOD: u32 = 0u;
 // False for the first order alone.
 override MULTIPLE: bool = true;
+
+// Further variants, so that a scene pays for what it has: a moon whose disc is shown or hides the sun's, and one that
+// lights air and ground as well.
+override MOON: bool = false;
+override MOONLIGHT: bool = false;
 
 struct Tile {
     origin_px: vec2u,
@@ -29,8 +36,14 @@ struct Tile {
 // Whichever of the two the method reads.
 @group(0) @binding(8) var sky_view_table: texture_2d_array<f32>;
 @group(0) @binding(9) var source_table: texture_2d_array<f32>;
-// R, G, B in W/m²/sr; alpha is 0 where the projection sees nothing, else one more than the angle from the sun.
+// R, G, B in W/m²/sr; alpha is 0 where the projection sees nothing, else one more than the angle from what glares.
 @group(0) @binding(10) var<storage, read_write> radiance: array<vec4f>;
+@group(0) @binding(11) var<uniform> glow: Airglow;
+@group(0) @binding(12) var<uniform> moon: Moon;
+// The moon in the sun's place, and its light in the air.
+@group(0) @binding(13) var<uniform> moon_view: View;
+@group(0) @binding(14) var moon_sky_view_table: texture_2d_array<f32>;
+@group(0) @binding(15) var moon_face: texture_2d<f32>;
 
 fn light_in_air(ray: SkyViewRay, mu: f32, nu: f32) -> Scattered {
     if METHOD != 0u {
@@ -42,10 +55,14 @@ fn light_in_air(ray: SkyViewRay, mu: f32, nu: f32) -> Scattered {
         }
         return light;
     }
-    let at = sky_view_coordinate(air.radius_m, air.top_m, view.altitude_m, ray, textureDimensions(sky_view_table));
-    let rayleigh = textureSampleLevel(sky_view_table, linear_clamp, at, 0, 0.0);
-    let mie = textureSampleLevel(sky_view_table, linear_clamp, at, 1, 0.0);
-    let multiple = textureSampleLevel(sky_view_table, linear_clamp, at, 2, 0.0);
+    return light_in_table(sky_view_table, ray);
+}
+
+fn light_in_table(table: texture_2d_array<f32>, ray: SkyViewRay) -> Scattered {
+    let at = sky_view_coordinate(air.radius_m, air.top_m, view.altitude_m, ray, textureDimensions(table));
+    let rayleigh = textureSampleLevel(table, linear_clamp, at, 0, 0.0);
+    let mie = textureSampleLevel(table, linear_clamp, at, 1, 0.0);
+    let multiple = textureSampleLevel(table, linear_clamp, at, 2, 0.0);
     return Scattered(rayleigh.rgb, mie.rgb, multiple.rgb, vec3f(rayleigh.a, mie.a, multiple.a));
 }
 
@@ -65,38 +82,95 @@ fn disc_in_pixel(place: vec2f, direction: vec3f) -> vec3f {
     let rising = angle_between(direction, sight_at(camera, place + vec2f(0.49, -0.49)).direction);
     let reach = max(falling, rising);
     let alpha = max(view.sun_angular_radius, reach);
-    if angle + 3.0 * reach < alpha {
+    if angle + 3.0 * reach < alpha && !(MOON && moon.sun_left < 1.0) {
         return disc_radiance(view, alpha, angle);
     }
     var sum = vec3f(0.0);
     for (var i = 0; i < DISC_PLACES * DISC_PLACES; i++) {
         let at = (vec2f(f32(i % DISC_PLACES), f32(i / DISC_PLACES)) + 0.5) / f32(DISC_PLACES) - 0.5;
-        sum += disc_radiance(view, alpha, angle_between(sight_at(camera, place + at).direction, view.sun));
+        let towards = sight_at(camera, place + at).direction;
+        let hidden = MOON && alpha == view.sun_angular_radius && angle_between(towards, moon.direction) < moon.angular_radius;
+        sum += select(1.0, 0.0, hidden) * disc_radiance(view, alpha, angle_between(towards, view.sun));
     }
-    return sum / f32(DISC_PLACES * DISC_PLACES);
+    // Drawn larger than it is, the sun loses by its share.
+    let left = select(1.0, moon.sun_left, MOON && alpha > view.sun_angular_radius);
+    return left * sum / f32(DISC_PLACES * DISC_PLACES);
 }
+
+// Most places along each side of a pixel at which the moon is looked at, and places across its disc that show all of
+// its face.
+const MOON_PLACES = 12.0;
+const FACE_PLACES = 1000.0;
+
+// Mean radiance of the moon's disc over a pixel, as that of the sun's.
+fn moon_in_pixel(place: vec2f, direction: vec3f) -> vec3f {
+    let angle = angle_between(direction, moon.direction);
+    if moon.disc == 0.0 || moon.angular_radius <= 0.0 || angle > moon.angular_radius + 4.0 * camera.pixel_angle {
+        return vec3f(0.0);
+    }
+    let falling = angle_between(direction, sight_at(camera, place + vec2f(0.49, 0.49)).direction);
+    let rising = angle_between(direction, sight_at(camera, place + vec2f(0.49, -0.49)).direction);
+    let reach = max(falling, rising);
+    let alpha = max(moon.angular_radius, reach);
+    let fainter = sin(0.5 * moon.angular_radius) / sin(0.5 * alpha);
+    let places = i32(clamp(ceil(FACE_PLACES * reach / alpha), 2.0, MOON_PLACES));
+    var sum = vec3f(0.0);
+    for (var i = 0; i < places * places; i++) {
+        let at = (vec2f(f32(i % places), f32(i / places)) + 0.5) / f32(places) - 0.5;
+        let towards = sight_at(camera, place + at).direction;
+        sum += moon_radiance(moon, moon_face, linear_clamp, place_on_moon(moon, alpha, towards));
+    }
+    return fainter * fainter * sum / f32(places * places);
+}
+
+// The corona about the moon, once the rest of the sun no longer outshines it.
+fn corona_towards(direction: vec3f) -> vec3f {
+    let hidden = angle_between(direction, moon.direction) < moon.angular_radius;
+    if view.disc == 0.0 || view.sun_angular_radius <= 0.0 || moon.sun_left > 0.01 || hidden {
+        return vec3f(0.0);
+    }
+    return (1.0 - moon.sun_left / 0.01) * corona(view.sun_irradiance, view.sun_angular_radius, angle_between(direction, view.sun));
+}
+
+// Angle along the horizon between a direction and a light, by the parts across the zenith.
+fn azimuth_from(light: View, direction: vec3f, mu: f32) -> f32 {
+    let across = direction - mu * light.up;
+    let across_light = light.sun - light.mu_s * light.up;
+    // At the zenith there is no azimuth and any will do, but atan2(0, 0) is undefined.
+    return atan2(length(cross(across, across_light)), dot(across, across_light) + 1e-20);
+}
+
+// Radiance that the air scatters of the moon's light.
+fn moonlight_in_air(direction: vec3f, mu: f32, zenith_angle: f32, ground: bool, distance_m: f32) -> vec3f {
+    let azimuth = azimuth_from(moon_view, direction, mu);
+    let light = light_in_table(moon_sky_view_table, SkyViewRay(azimuth, zenith_angle, ground, distance_m));
+    return scattered_radiance(air, moon_view, light, clamp(dot(direction, moon_view.sun), -1.0, 1.0));
+}
+
+// A ray that nothing stops.
+const ENDLESS_M = 1e12;
 
 fn radiance_towards(direction: vec3f, disc: vec3f) -> vec3f {
     let mu = dot(direction, view.up);
     let zenith_angle = angle_between(direction, view.up);
     let nu = clamp(dot(direction, view.sun), -1.0, 1.0);
-    // Azimuth from the sun, by the parts across the zenith.
-    let across = direction - mu * view.up;
-    let across_sun = view.sun - view.mu_s * view.up;
-    // At the zenith there is no azimuth and any will do, but atan2(0, 0) is undefined.
-    let azimuth = atan2(length(cross(across, across_sun)), dot(across, across_sun) + 1e-20);
+    let azimuth = azimuth_from(view, direction, mu);
     let horizon = edge_zenith_angle(air.radius_m, view.altitude_m);
     // Share of the pixel above the horizon, for an even edge.
     let above = clamp(0.5 + (horizon - zenith_angle) / camera.pixel_angle, 0.0, 1.0);
     var sum = vec3f(0.0);
     if above > 0.0 {
         let angle = min(zenith_angle, horizon);
+        var left = vec3f(1.0);
         if angle >= least_zenith_angle(air.radius_m, air.top_m, view.altitude_m) {
             let light = light_in_air(SkyViewRay(azimuth, angle, false, 0.0), mu, nu);
-            sum += above * (scattered_radiance(air, view, light, nu) + exp(-light.optical_depth) * disc);
-        } else {
-            sum += above * disc;
+            left = exp(-light.optical_depth);
+            sum += above * scattered_radiance(air, view, light, nu);
+            if MOONLIGHT {
+                sum += above * moonlight_in_air(direction, mu, angle, false, 0.0);
+            }
         }
+        sum += above * (left * disc + airglow_radiance(glow, air.radius_m, view.altitude_m, mu, ENDLESS_M, left));
     }
     if above < 1.0 {
         // The edge of the sphere where the pixel's centre is just above it.
@@ -104,8 +178,17 @@ fn radiance_towards(direction: vec3f, disc: vec3f) -> vec3f {
         let edge_m = sqrt(horizon_distance_squared(air.radius_m, view.altitude_m));
         let distance_m = select(met_m, edge_m, met_m < 0.0);
         let light = light_in_air(SkyViewRay(azimuth, zenith_angle, true, distance_m), mu, nu);
-        let ground = ground_radiance(air, view, nu, distance_m, transmittance_table, irradiance_table, linear_clamp);
-        sum += (1.0 - above) * (scattered_radiance(air, view, light, nu) + exp(-light.optical_depth) * ground);
+        let left = exp(-light.optical_depth);
+        var ground = ground_radiance(air, view, nu, distance_m, transmittance_table, irradiance_table, linear_clamp)
+            + air.ground_albedo / PI * glow.ground_irradiance;
+        var between = scattered_radiance(air, view, light, nu)
+            + airglow_radiance(glow, air.radius_m, view.altitude_m, mu, distance_m, left);
+        if MOONLIGHT {
+            let nu_moon = clamp(dot(direction, moon_view.sun), -1.0, 1.0);
+            ground += ground_radiance(air, moon_view, nu_moon, distance_m, transmittance_table, irradiance_table, linear_clamp);
+            between += moonlight_in_air(direction, mu, zenith_angle, true, distance_m);
+        }
+        sum += (1.0 - above) * (between + left * ground);
     }
     return sum;
 }
@@ -119,8 +202,14 @@ fn sky(@builtin(global_invocation_id) id: vec3u) {
     let sight = sight_at(camera, place);
     var value = vec4f(0.0);
     if sight.seen {
-        let off_sun = angle_between(sight.direction, view.sun);
-        value = vec4f(radiance_towards(sight.direction, disc_in_pixel(place, sight.direction)), 1.0 + off_sun);
+        var disc = disc_in_pixel(place, sight.direction);
+        var glaring = view.sun;
+        if MOON {
+            disc = moon.sun_disc_scale * disc + moon_in_pixel(place, sight.direction);
+            disc += moon.sun_disc_scale * corona_towards(sight.direction);
+            glaring = select(view.sun, moon.direction, moon.glares == 1.0);
+        }
+        value = vec4f(radiance_towards(sight.direction, disc), 1.0 + angle_between(sight.direction, glaring));
     }
     radiance[id.y * tile.size_px.x + id.x] = value;
 }

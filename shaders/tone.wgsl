@@ -13,12 +13,12 @@ struct Tone {
     // 1 where the meter's exposure counts.
     metered: u32,
     white_b: vec3f,
-    sun_angular_radius: f32,
+    glaring_angular_radius: f32,
     // Multiplies radiance where nothing is metered.
     gain: vec3f,
     glare: f32,
-    // Irradiance of the visible disc at the observer.
-    sun_irradiance: vec3f,
+    // Irradiance of the visible disc at the observer: the sun's or the moon's.
+    glaring_irradiance: vec3f,
     origin_px: vec2u,
     size_px: vec2u,
 }
@@ -30,7 +30,7 @@ struct Exposure {
 
 @group(0) @binding(0) var<uniform> tone_settings: Tone;
 @group(0) @binding(1) var<storage, read> exposure: Exposure;
-// Alpha is 0 where the projection sees nothing, else one more than the angle from the sun.
+// Alpha is 0 where the projection sees nothing, else one more than the angle from the disc that glares.
 @group(0) @binding(2) var<storage, read> radiance: array<vec4f>;
 // R, G, B, A bytes, from the least significant.
 @group(0) @binding(3) var<storage, read_write> picture: array<u32>;
@@ -61,9 +61,9 @@ const LENS_VEIL = 0.35;
 const VEIL_STEEPENS_DEG = 2.5;
 
 fn lens_glare(angle: f32) -> vec3f {
-    let off_deg = degrees(max(angle, tone_settings.sun_angular_radius));
+    let off_deg = degrees(max(angle, tone_settings.glaring_angular_radius));
     let veil = LENS_VEIL / (max(off_deg * off_deg, 0.01) * (1.0 + off_deg / VEIL_STEEPENS_DEG));
-    return tone_settings.glare * veil * tone_settings.sun_irradiance;
+    return tone_settings.glare * veil * tone_settings.glaring_irradiance;
 }
 
 @compute @workgroup_size(8, 8)

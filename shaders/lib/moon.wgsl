@@ -1,5 +1,5 @@
 // The moon's disc.
-import package::lib::geometry::angle_between;
+import package::lib::geometry::{PI, angle_between};
 
 struct Moon {
     // Towards it.
@@ -20,6 +20,8 @@ struct Moon {
     radiance: vec3f,
     // Multiplies the face: light of the Earth.
     earthshine: vec3f,
+    // 1 where the lens' glare is about the moon rather than the sun.
+    glares: f32,
 }
 
 // Place on a disc of angular radius α, east and north in radii. With |p| = sin(γ/2) / sin(α/2) equal areas are equal
@@ -42,4 +44,12 @@ fn moon_radiance(moon: Moon, face: texture_2d<f32>, linear_clamp: sampler, place
     let lit = select(0.0, 2.0 * mu0 / (mu0 + at.x), mu0 > 0.0);
     let albedo = textureSampleLevel(face, linear_clamp, vec2f(0.5, 0.5) + vec2f(0.5, -0.5) * place, 0.0).rgb;
     return albedo * (lit * moon.radiance + moon.earthshine);
+}
+
+// The sun's corona over the mean radiance of its disc, r in solar radii from its centre: 1e-6 (0.0532 r^-2.5 + 1.425 r^-7 +
+// 2.565 r^-17) (Baumbach 1937). It takes a total eclipse to see it.
+fn corona(sun_irradiance: vec3f, sun_angular_radius: f32, angle: f32) -> vec3f {
+    let r = max(angle / sun_angular_radius, 1.0);
+    let share = 1e-6 * (0.0532 * pow(r, -2.5) + 1.425 * pow(r, -7.0) + 2.565 * pow(r, -17.0));
+    return share * sun_irradiance / (PI * sun_angular_radius * sun_angular_radius);
 }

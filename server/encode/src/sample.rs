@@ -60,6 +60,8 @@ fn frame(width: u16, height: u16, pixels: Pixels) -> Frame {
                 elevation_deg: -4.5,
             },
             sun_irradiance_w_m2: [1.5, 1.25, 0.75],
+            moon: None,
+            moon_irradiance_w_m2: [0.0; 3],
             ev100: None,
         },
     }

@@ -2,10 +2,15 @@
 
 use crate::{
     camera::CameraUniform,
+    cpu::airglow::{NightLight, night_light},
     error::Error,
     gpu::{AdapterChoice, Gpu},
     kernel::Recorder,
+    lights::Lights,
+    memo::{Fingerprint, Memo},
     method::Plan,
+    moon_face,
+    night::Night,
     passes::{
         Table,
         exposure::{EXPOSURE_BYTES, ExposurePass, meter_size},
@@ -13,17 +18,18 @@ use crate::{
         probe::{Probe, ProbeInputs, Seen, Sight},
         sky::{Sky, SkyInputs},
         sky_view::SkyView,
+        stars::{StarsInputs, StarsOut, StarsPass},
         tone::Tone,
         transmittance::Transmittance,
     },
     screen::{PICTURE_BYTES, RADIANCE_BYTES, Screen},
-    sunlight::direct_normal,
-    uniforms::{AirUniform, Part, Standpoint, TileUniform, ToneUniform, ViewUniform},
+    sunlight::{direct_normal, moon_direct_normal},
+    uniforms::{AirUniform, Part, Standpoint, TileUniform, ToneUniform, night::AirglowUniform},
 };
 use glam::UVec2;
-use std::sync::Arc;
+use std::{cell::OnceCell, sync::Arc};
 use welkin_scene::{
-    Exposure, Method, Quality, Scene, Sun,
+    Exposure, Method, Quality, Scene,
     renderer::{FrameFacts, FrameOrder, Output, PassTime},
 };
 
@@ -33,10 +39,13 @@ pub(crate) struct Engine {
     multi_scattering: MultiScatteringPass,
     sky_view: SkyView,
     sky: Sky,
+    moon_face: OnceCell<wgpu::TextureView>,
+    stars: StarsPass,
     exposure: ExposurePass,
     tone: Tone,
     probe: Probe,
     screen: Screen,
+    night_light: Memo<NightLight>,
     pub(crate) generation: u64,
     pub(crate) gpu: Gpu,
 }
@@ -53,14 +62,13 @@ pub(crate) struct Tables {
 /// A frame whose tables are ready and whose exposure is metered.
 pub(crate) struct Prepared {
     tables: Tables,
-    view: Part,
+    lights: Lights,
     camera: CameraUniform,
     camera_part: Part,
     observer: Part,
     sky_view: Option<Arc<Table>>,
+    stars: Option<StarsOut>,
     exposure: Arc<wgpu::Buffer>,
-    /// Irradiance of the visible disc, W/m².
-    sunlight: [f64; 3],
     /// The device that holds it.
     pub(crate) generation: u64,
 }
@@ -77,22 +85,25 @@ impl Engine {
                 Transmittance::new(&gpu),
                 MultiScatteringPass::new(&gpu),
                 SkyView::new(),
-                Sky::new(),
+                StarsPass::new(&gpu),
                 ExposurePass::new(&gpu),
                 Tone::new(),
                 Probe::new(),
             ))
         })?;
-        let (transmittance, multi_scattering, sky_view, sky, exposure, tone, probe) = passes;
+        let (transmittance, multi_scattering, sky_view, stars, exposure, tone, probe) = passes;
         Ok(Self {
             transmittance,
             multi_scattering,
             sky_view,
-            sky,
+            sky: Sky::new(),
+            moon_face: OnceCell::new(),
+            stars,
             exposure,
             tone,
             probe,
             screen: Screen::default(),
+            night_light: Memo::new(8),
             generation,
             gpu,
         })
@@ -136,17 +147,32 @@ impl Engine {
             });
             let observer = Part::new(&tables.stand.observer(tables.plan.pixel_steps()));
             let size_px = UVec2::new(order.width_px, order.height_px);
+            let night = Night::new(scene, &tables.stand);
+            let moon_sky_view = night.moon.filter(|moon| moon.counts > 0.0).map(|moon| {
+                let (air, stand) = (&tables.air, moon.stand(&tables.stand));
+                self.sky_view
+                    .run(&mut recorder, air, &stand, reads, tables.plan, order.quality)
+            });
+            let glow = airglow(&mut self.night_light, scene, &tables.air);
+            let face = || moon_face(&self.moon_face, gpu);
+            let lights = Lights::new(scene, &tables.stand, night, glow, face, moon_sky_view);
+            let stars = scene.stars.as_ref().filter(|_| night.stars > 0.0).map(|stars| {
+                let (seen_by, hidden_by) =
+                    ((&scene.camera, size_px), night.screens(&tables.stand, &scene.sun));
+                StarsOut {
+                    field: self
+                        .stars
+                        .field(gpu, stars, &scene.firmament(), seen_by, &hidden_by),
+                    out: night.stars,
+                }
+            });
             let exposure = match scene.display.exposure {
                 Exposure::Auto { compensation_ev } if order.output == Output::Display => {
-                    // The meter does not look into the sun.
-                    let hidden = Sun {
-                        disc: false,
-                        ..scene.sun.clone()
-                    };
-                    let view = Part::new(&ViewUniform::new(&hidden, &tables.stand));
+                    // The meter looks into neither sun nor moon, and sees no stars.
                     let small = meter_size(size_px);
                     let camera = Part::new(&CameraUniform::new(&scene.camera, small));
-                    let inputs = sky_inputs(&tables, [&view, &camera, &observer], sky_view.as_deref());
+                    let parts = [lights.view(true), &camera, &observer];
+                    let inputs = sky_inputs(&tables, &lights, true, parts, sky_view.as_deref());
                     let compensation = crate::uniforms::narrow(compensation_ev);
                     self.exposure
                         .run(&mut recorder, &mut self.sky, inputs, small, compensation)
@@ -154,20 +180,18 @@ impl Engine {
                 _ => self.exposure.none(gpu),
             };
             let camera = CameraUniform::new(&scene.camera, size_px);
-            let view = Part::new(&ViewUniform::new(&scene.sun, &tables.stand));
             let ((), times) = recorder.finish(&[], |_| ())?;
             let camera_part = Part::new(&camera);
-            let sunlight = direct_normal(scene, &tables.stand);
             Ok((
                 Prepared {
                     tables,
-                    view,
+                    lights,
                     camera,
                     camera_part,
                     observer,
                     sky_view,
+                    stars,
                     exposure,
-                    sunlight,
                     generation: self.generation,
                 },
                 times,
@@ -190,17 +214,27 @@ impl Engine {
         gpu.guarded(|| {
             let mut recorder = Recorder::new(gpu);
             let inputs = frame.sky_inputs();
-            let made_from = inputs.fingerprint(&Part::new(&tile));
+            let stars = frame.stars.as_ref().map(StarsOut::fingerprint);
+            let made_from = Fingerprint::of((inputs.fingerprint(&Part::new(&tile)), stars));
             // Emptied until the commands have run.
             if buffers.holds.take() != Some(made_from) {
                 self.sky.run(&mut recorder, inputs, tile, &buffers.radiance);
+                if let Some(stars) = &frame.stars {
+                    let reads = StarsInputs {
+                        air: inputs.air,
+                        view: inputs.view,
+                        transmittance: inputs.transmittance,
+                    };
+                    self.stars
+                        .run(&mut recorder, reads, stars, tile, &buffers.radiance);
+                }
             }
             let (settings, known_ev) = ToneUniform::new(
                 &order.scene,
                 &frame.camera,
                 &frame.tables.stand,
                 tile,
-                frame.sunlight,
+                &frame.lights.glare,
             );
             let (source, size) = match order.output {
                 Output::Linear => (&buffers.radiance, RADIANCE_BYTES * pixels),
@@ -245,14 +279,20 @@ impl Engine {
             let passes = (&mut self.transmittance, &mut self.multi_scattering);
             let tables = Self::tables(passes, &mut recorder, scene, Quality::Final);
             recorder.finish(&[], |_| ())?;
-            let view = Part::new(&ViewUniform::new(&scene.sun, &tables.stand));
+            let night = Night::new(scene, &tables.stand);
+            let glow = airglow(&mut self.night_light, scene, &tables.air);
+            let face = || moon_face(&self.moon_face, gpu);
+            let lights = Lights::new(scene, &tables.stand, night, glow, face, None);
+            let moon_stand = night.moon.map(|moon| moon.stand(&tables.stand));
             let inputs = ProbeInputs {
                 air: &tables.air,
-                view: &view,
+                view: lights.view(false),
                 stand: &tables.stand,
                 plan: tables.plan,
                 transmittance: &tables.transmittance,
                 multi_scattering: &tables.multi_scattering,
+                airglow: lights.airglow(),
+                moon: lights.moon(false).zip(moon_stand),
             };
             self.probe.run(gpu, inputs, sights)
         })
@@ -261,8 +301,8 @@ impl Engine {
 
 impl Prepared {
     fn sky_inputs(&self) -> SkyInputs<'_> {
-        let parts = [&self.view, &self.camera_part, &self.observer];
-        sky_inputs(&self.tables, parts, self.sky_view.as_deref())
+        let parts = [self.lights.view(false), &self.camera_part, &self.observer];
+        sky_inputs(&self.tables, &self.lights, false, parts, self.sky_view.as_deref())
     }
 
     /// About how many times the work of a pixel that reads tables a pixel takes.
@@ -273,6 +313,8 @@ impl Prepared {
 
 fn sky_inputs<'a>(
     tables: &'a Tables,
+    lights: &'a Lights,
+    metered: bool,
     [view, camera, observer]: [&'a Part; 3],
     sky_view: Option<&'a Table>,
 ) -> SkyInputs<'a> {
@@ -286,15 +328,37 @@ fn sky_inputs<'a>(
         irradiance: &tables.multi_scattering.irradiance,
         sky_view,
         source: &tables.multi_scattering.source,
+        airglow: lights.airglow(),
+        moon: lights.moon(metered),
     }
+}
+
+/// The picture of the moon, made when a scene first has one.
+fn moon_face(kept: &OnceCell<wgpu::TextureView>, gpu: &Gpu) -> wgpu::TextureView {
+    let side = u32::try_from(moon_face::SIDE).unwrap_or(u32::MAX);
+    kept.get_or_init(|| gpu.picture("moon_face", side, moon_face::face()))
+        .clone()
+}
+
+/// The night sky's own light; summed anew when air or stars change.
+fn airglow(memo: &mut Memo<NightLight>, scene: &Scene, air: &Part) -> Part {
+    let glow = scene.atmosphere.as_ref().map(|air| &air.airglow);
+    let made_from = Fingerprint::of((air, format!("{glow:?} {:?}", scene.stars)));
+    Part::new(&AirglowUniform::new(
+        scene,
+        &memo.get_or(made_from, || night_light(scene)),
+    ))
 }
 
 /// What a frame says of itself.
 pub(crate) fn facts(scene: &Scene, ev100: Option<f64>) -> FrameFacts {
-    let irradiance = direct_normal(scene, &Standpoint::new(scene));
+    let stand = Standpoint::new(scene);
+    let night = Night::new(scene, &stand);
     FrameFacts {
         sun: scene.sun_place(),
-        sun_irradiance_w_m2: irradiance,
+        sun_irradiance_w_m2: direct_normal(scene, &stand, &night),
+        moon: scene.moon_place(),
+        moon_irradiance_w_m2: moon_direct_normal(scene, &stand, &night),
         ev100,
     }
 }

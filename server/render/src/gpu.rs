@@ -222,6 +222,41 @@ impl Gpu {
         })
     }
 
+    /// A table that holds a picture, rows from the top.
+    pub(crate) fn picture(&self, label: &str, width: u32, texels: &[[f32; 3]]) -> wgpu::TextureView {
+        let height = u32::try_from(texels.len()).unwrap_or(0) / width;
+        let size = wgpu::Extent3d {
+            width,
+            height,
+            depth_or_array_layers: 1,
+        };
+        let texture = self.device.create_texture(&wgpu::TextureDescriptor {
+            label: Some(label),
+            size,
+            mip_level_count: 1,
+            sample_count: 1,
+            dimension: wgpu::TextureDimension::D2,
+            format: self.table_format,
+            usage: wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_DST,
+            view_formats: &[],
+        });
+        let whole: Vec<[f32; 4]> = texels.iter().map(|[r, g, b]| [*r, *g, *b, 1.0]).collect();
+        let bytes = if self.table_format == wgpu::TextureFormat::Rgba32Float {
+            bytemuck::cast_slice(&whole).to_vec()
+        } else {
+            let halves: Vec<half::f16> = whole.iter().flatten().map(|v| half::f16::from_f32(*v)).collect();
+            bytemuck::cast_slice(&halves).to_vec()
+        };
+        let layout = wgpu::TexelCopyBufferLayout {
+            offset: 0,
+            bytes_per_row: u32::try_from(bytes.len()).ok().map(|all| all / height),
+            rows_per_image: None,
+        };
+        self.queue
+            .write_texture(texture.as_image_copy(), &bytes, layout, size);
+        texture.create_view(&wgpu::TextureViewDescriptor::default())
+    }
+
     /// Waits for all submitted work, then hands the first `size` bytes of each mappable buffer to `take`.
     pub(crate) fn read<T>(
         &self,

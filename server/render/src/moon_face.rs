@@ -80,6 +80,8 @@ const RAYED: [(Place, f64); 16] = [
 
 /// A plain's albedo over that of the highlands (Apollo's 0.065 against 0.12), and what the basalt keeps of red and blue.
 const MARE: DVec3 = DVec3::new(0.53, 0.54, 0.56);
+/// Height of flood at the shore of a lone circle, whose middle has 1.
+const SHORE: f64 = 0.5;
 /// How much brighter fresh rays are than the ground about them.
 const RAYS: f64 = 0.55;
 
@@ -140,17 +142,26 @@ fn paint() -> Vec<[f32; 3]> {
 /// Albedo of a place on the sphere over that of even highlands.
 fn albedo(at: DVec3) -> DVec3 {
     // Shores are ragged: places are pushed about before they are looked up.
-    let pushed = at + 0.045 * DVec3::new(noise(at * 5.0, 1), noise(at * 5.0, 2), noise(at * 5.0, 3));
-    let pushed = (pushed + 0.014 * DVec3::splat(noise(at * 23.0, 4))).normalize();
-    let mut sea: f64 = 0.0;
-    for (latitude, longitude, km) in MARIA {
-        let off_km = pushed.angle_between(unit(latitude, longitude)).to_degrees() * KM_PER_DEG;
-        let inside = smooth((km / 2.0 - off_km) / 90.0 + 0.5);
-        sea = sea.max(inside);
-    }
+    let push = |scale: f64, seed: u32| {
+        DVec3::new(
+            noise(at * scale, seed),
+            noise(at * scale, seed + 1),
+            noise(at * scale, seed + 2),
+        )
+    };
+    let pushed = (at + 0.085 * push(4.0, 1) + 0.03 * push(14.0, 11)).normalize();
+    // Circles that come close flow into one another.
+    let flooded: f64 = MARIA
+        .iter()
+        .map(|(latitude, longitude, km)| {
+            let off_km = pushed.angle_between(unit(*latitude, *longitude)).to_degrees() * KM_PER_DEG;
+            (SHORE.ln() * (2.0 * off_km / km).powi(2)).exp()
+        })
+        .sum();
+    let sea = smooth((flooded - SHORE + 0.10 * noise(at * 9.0, 21)) / 0.22 + 0.5);
     // Basalt flows differ by a sixth; highlands are mottled by old craters.
-    let flows = 1.0 + 0.16 * noise(at * 6.0, 5);
-    let mottle = 1.0 + 0.10 * noise(at * 9.0, 6) + 0.08 * noise(at * 30.0, 7);
+    let flows = 1.0 + 0.22 * noise(at * 5.0, 5);
+    let mottle = 1.0 + 0.12 * noise(at * 7.0, 6) + 0.16 * noise(at * 28.0, 7);
     let ground = DVec3::splat(mottle).lerp(MARE * flows, sea);
     ground * (1.0 + RAYS * rays(at).min(1.0) * (1.0 - 0.35 * sea))
 }

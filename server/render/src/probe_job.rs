@@ -3,9 +3,10 @@
 use crate::{
     engine::Engine,
     error::Error,
+    night::Night,
     passes::probe::{CHUNK, Seen, Sight},
     quadrature::{Node, harmonics, sphere},
-    sunlight::direct_normal,
+    sunlight::{direct_normal, moon_direct_normal},
     uniforms::Standpoint,
 };
 use glam::DVec3;
@@ -65,7 +66,8 @@ impl ProbeJob {
                 }
             }
         }
-        let direct_normal_w_m2 = direct_normal(&self.request.scene, &self.stand);
+        let night = Night::new(&self.request.scene, &self.stand);
+        let direct_normal_w_m2 = direct_normal(&self.request.scene, &self.stand, &night);
         let falling = self.stand.up.dot(self.stand.sun).max(0.0);
         ProbeAnswer {
             radiance_w_m2_sr: asked.iter().map(|s| s.radiance).collect(),
@@ -74,10 +76,12 @@ impl ProbeJob {
             irradiance: Irradiance {
                 direct_w_m2: direct_normal_w_m2.map(|e| e * falling),
                 direct_normal_w_m2,
+                moon_direct_normal_w_m2: moon_direct_normal(&self.request.scene, &self.stand, &night),
                 diffuse_w_m2,
                 sh9,
             },
             sun: self.request.scene.sun_place(),
+            moon: self.request.scene.moon_place(),
         }
     }
 }

@@ -1,6 +1,6 @@
-//! The sun's own light at the observer.
+//! The sun's and the moon's own light at the observer.
 
-use crate::{cpu::air::transmittance_to_space, uniforms::Standpoint};
+use crate::{cpu::air::transmittance_to_space, night::Night, uniforms::Standpoint};
 use std::f64::consts::PI;
 use welkin_scene::Scene;
 
@@ -9,9 +9,24 @@ const STRIPS: u32 = 9;
 
 /// Irradiance from the disc on a plane that faces it, in R, G and B, W/m²: what the air and the horizon leave of it.
 /// The disc is taken as even; strips at heights cos φ have areas in proportion to sin²φ dφ.
-pub(crate) fn direct_normal(scene: &Scene, stand: &Standpoint) -> [f64; 3] {
+/// A moon before the sun takes its share.
+pub(crate) fn direct_normal(scene: &Scene, stand: &Standpoint, night: &Night) -> [f64; 3] {
+    let left = disc_left(scene, stand, scene.sun.angular_diameter_deg);
+    [0, 1, 2].map(|i| scene.sun.irradiance_w_m2[i] * night.uncovered.disc * left[i])
+}
+
+/// The same of the moon; zero where there is none.
+pub(crate) fn moon_direct_normal(scene: &Scene, stand: &Standpoint, night: &Night) -> [f64; 3] {
+    night.moon.map_or([0.0; 3], |moon| {
+        let left = disc_left(scene, &moon.stand(stand), moon.seen.angular_diameter_deg);
+        [0, 1, 2].map(|i| moon.light.irradiance_w_m2[i] * left[i])
+    })
+}
+
+/// Share of a disc's light that reaches the observer; `stand` has it in the sun's place.
+fn disc_left(scene: &Scene, stand: &Standpoint, diameter_deg: f64) -> [f64; 3] {
     let centre = stand.up.cross(stand.sun).length().atan2(stand.up.dot(stand.sun));
-    let radius = (scene.sun.angular_diameter_deg / 2.0).to_radians();
+    let radius = (diameter_deg / 2.0).to_radians();
     let mut left = [0.0; 3];
     for strip in 0..STRIPS {
         let phi = PI * (f64::from(strip) + 0.5) / f64::from(STRIPS);
@@ -22,5 +37,5 @@ pub(crate) fn direct_normal(scene: &Scene, stand: &Standpoint) -> [f64; 3] {
             *sum += share * t;
         }
     }
-    [0, 1, 2].map(|i| scene.sun.irradiance_w_m2[i] * left[i])
+    left
 }

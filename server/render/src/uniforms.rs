@@ -2,7 +2,7 @@
 
 pub(crate) mod night;
 
-use crate::{camera::CameraUniform, colour, method::Steps};
+use crate::{camera::CameraUniform, colour, lights::Glare, method::Steps};
 use encase::{ShaderSize, ShaderType, internal::WriteInto};
 use glam::{DVec3, UVec2, Vec3};
 use welkin_scene::{Atmosphere, Exposure, Haze, Orders, Scene, Sun};
@@ -221,10 +221,10 @@ pub(crate) struct ToneUniform {
     pub(crate) white_g: Vec3,
     pub(crate) metered: u32,
     pub(crate) white_b: Vec3,
-    pub(crate) sun_angular_radius: f32,
+    pub(crate) glaring_angular_radius: f32,
     pub(crate) gain: Vec3,
     pub(crate) glare: f32,
-    pub(crate) sun_irradiance: Vec3,
+    pub(crate) glaring_irradiance: Vec3,
     pub(crate) origin_px: UVec2,
     pub(crate) size_px: UVec2,
 }
@@ -241,7 +241,7 @@ impl ToneUniform {
         camera: &CameraUniform,
         stand: &Standpoint,
         tile: TileUniform,
-        sunlight: [f64; 3],
+        glare: &Glare,
     ) -> (Self, Option<f64>) {
         let display = &scene.display;
         let (gain, ev) = match display.exposure {
@@ -264,13 +264,9 @@ impl ToneUniform {
             white_b: narrow3(white[2]),
             dither: u32::from(display.dither),
             gain: narrow3(gain),
-            glare: if scene.sun.disc {
-                narrow(display.glare)
-            } else {
-                0.0
-            },
-            sun_irradiance: narrow3(sunlight),
-            sun_angular_radius: narrow((scene.sun.angular_diameter_deg / 2.0).to_radians()),
+            glare: narrow(display.glare),
+            glaring_irradiance: narrow3(glare.irradiance_w_m2),
+            glaring_angular_radius: narrow((glare.diameter_deg / 2.0).to_radians()),
             origin_px: tile.origin_px,
             size_px: tile.size_px,
         };

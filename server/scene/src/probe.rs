@@ -1,6 +1,6 @@
 //! The numbers behind the picture.
 
-use crate::{direction::Direction, document::Scene};
+use crate::{direction::Direction, document::Scene, moon::MoonPlace};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -21,7 +21,7 @@ pub struct ProbeRequest {
 /// The answer to a probe; one entry a direction, in the order asked.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct ProbeAnswer {
-    /// Radiance in R, G and B, the sun's disc included where it is shown, W/m²/sr.
+    /// Radiance in R, G and B, the discs of sun and moon included where they are shown; stars are points and are not, W/m²/sr.
     pub radiance_w_m2_sr: Vec<[f64; 3]>,
     /// Transmittance from the observer to the ground or to space.
     pub transmittance: Vec<[f64; 3]>,
@@ -31,6 +31,8 @@ pub struct ProbeAnswer {
     pub irradiance: Irradiance,
     /// Where the sun stands.
     pub sun: SunPlace,
+    /// Where the moon stands; null where there is none.
+    pub moon: Option<MoonPlace>,
 }
 
 /// Light that falls on the observer.
@@ -40,9 +42,11 @@ pub struct Irradiance {
     pub direct_w_m2: [f64; 3],
     /// From the sun on a plane that faces it, W/m².
     pub direct_normal_w_m2: [f64; 3],
-    /// From the sky on a horizontal plane that faces up, without the sun's disc, W/m².
+    /// From the moon on a plane that faces it, W/m².
+    pub moon_direct_normal_w_m2: [f64; 3],
+    /// From the sky on a horizontal plane that faces up, without the discs of sun and moon, W/m².
     pub diffuse_w_m2: [f64; 3],
-    /// Radiance of sky and ground, without the sun's disc, in real orthonormal spherical harmonics of the world axes,
+    /// Radiance of sky and ground, without the discs, in real orthonormal spherical harmonics of the world axes,
     /// in the order Y00, Y1-1 (y), Y10 (z), Y11 (x), Y2-2 (xy), Y2-1 (yz), Y20 (3z²-1), Y21 (xz), Y22 (x²-y²).
     pub sh9: [[f64; 3]; 9],
 }

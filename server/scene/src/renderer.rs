@@ -3,6 +3,7 @@
 use crate::{
     document::Scene,
     frame::Quality,
+    moon::MoonPlace,
     probe::{ProbeAnswer, ProbeRequest, SunPlace},
 };
 use serde::Serialize;
@@ -96,6 +97,10 @@ pub struct FrameFacts {
     pub sun: SunPlace,
     /// Irradiance from the sun at the observer on a plane that faces it, W/m²; zero where the ground hides it.
     pub sun_irradiance_w_m2: [f64; 3],
+    /// Where the moon stands; `None` where there is none.
+    pub moon: Option<MoonPlace>,
+    /// Irradiance from the moon at the observer on a plane that faces it, W/m².
+    pub moon_irradiance_w_m2: [f64; 3],
     /// Exposure value at ISO 100 that the picture was taken with; `None` for radiance.
     pub ev100: Option<f64>,
 }

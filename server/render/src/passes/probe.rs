@@ -1,13 +1,13 @@
 //! Radiance, transmittance and distance at exact directions.
 
-use super::{Table, multi_scattering::MultiScattering};
+use super::{Table, multi_scattering::MultiScattering, sky::MoonInputs};
 use crate::{
     error::Error,
     gpu::Gpu,
     kernel::{Bind, Recorder, Variants},
     method::Plan,
     shader,
-    uniforms::{Part, Standpoint},
+    uniforms::{Part, Standpoint, night::MoonUniform},
 };
 use glam::DVec3;
 use welkin_scene::Method;
@@ -43,6 +43,9 @@ pub(crate) struct ProbeInputs<'a> {
     pub(crate) plan: Plan,
     pub(crate) transmittance: &'a Table,
     pub(crate) multi_scattering: &'a MultiScattering,
+    pub(crate) airglow: &'a Part,
+    /// The moon, and the observer with it in the sun's place.
+    pub(crate) moon: Option<(MoonInputs<'a>, Standpoint)>,
 }
 
 impl Probe {
@@ -89,6 +92,16 @@ impl Probe {
         let air = inputs.air.upload(gpu, "air");
         let view = inputs.view.upload(gpu, "view");
         let observer = Part::new(&inputs.stand.observer(inputs.plan.probe_steps())).upload(gpu, "observer");
+        let of_moon = inputs.moon.map(|(moon, _)| moon);
+        let moon_stand = inputs.moon.map_or(*inputs.stand, |(_, stand)| stand);
+        let airglow = inputs.airglow.upload(gpu, "airglow");
+        // A variant reads nothing of what it is not for; anything stands there.
+        let none = Part::new(&MoonUniform::default());
+        let moon = of_moon.map_or(&none, |m| m.moon).upload(gpu, "moon");
+        let moon_view = of_moon.map_or(inputs.view, |m| m.view).upload(gpu, "moon view");
+        let moon_observer =
+            Part::new(&moon_stand.observer(inputs.plan.probe_steps())).upload(gpu, "moon observer");
+        let face = of_moon.map_or(&inputs.transmittance.view, |m| m.face);
         let binds = [
             Bind::Buffer(&air),
             Bind::Buffer(&view),
@@ -99,6 +112,11 @@ impl Probe {
             Bind::Table(&inputs.multi_scattering.source.view),
             Bind::Buffer(&directions),
             Bind::Buffer(&answers),
+            Bind::Buffer(&airglow),
+            Bind::Buffer(&moon),
+            Bind::Buffer(&moon_view),
+            Bind::Buffer(&moon_observer),
+            Bind::Table(face),
         ];
         let mut recorder = Recorder::new(gpu);
         let threads = u32::try_from(packed.len()).unwrap_or(u32::MAX);
@@ -106,6 +124,11 @@ impl Probe {
         let constants = [
             ("MULTIPLE", f64::from(u8::from(inputs.plan.multiple))),
             ("NESTED", f64::from(u8::from(nested))),
+            ("MOON", f64::from(u8::from(of_moon.is_some()))),
+            (
+                "MOONLIGHT",
+                f64::from(u8::from(of_moon.is_some_and(|m| m.lights))),
+            ),
         ];
         let kernel = self.kernels.get(gpu, &constants);
         recorder.dispatch(kernel, &binds, [threads, 1, 1]);

@@ -6,7 +6,7 @@ use crate::{
     memo::Fingerprint,
     method::Plan,
     shader,
-    uniforms::{Part, TileUniform},
+    uniforms::{Part, TileUniform, night::MoonUniform},
 };
 
 pub(crate) struct Sky {
@@ -26,6 +26,21 @@ pub(crate) struct SkyInputs<'a> {
     /// None where each pixel's ray is followed.
     pub(crate) sky_view: Option<&'a Table>,
     pub(crate) source: &'a Table,
+    pub(crate) airglow: &'a Part,
+    pub(crate) moon: Option<MoonInputs<'a>>,
+}
+
+/// The moon as the pass reads it.
+#[derive(Clone, Copy)]
+pub(crate) struct MoonInputs<'a> {
+    pub(crate) moon: &'a Part,
+    /// The moon in the sun's place.
+    pub(crate) view: &'a Part,
+    pub(crate) face: &'a wgpu::TextureView,
+    /// True where its light on air and ground counts.
+    pub(crate) lights: bool,
+    /// That light in the air, for those who read it from a table.
+    pub(crate) sky_view: Option<&'a Table>,
 }
 
 impl SkyInputs<'_> {
@@ -37,7 +52,10 @@ impl SkyInputs<'_> {
             self.sky_view.map(|table| table.made_from),
         );
         let parts = (self.air, self.view, self.camera, self.observer, tile);
-        Fingerprint::of(("sky", self.plan, parts, tables))
+        let moon = self
+            .moon
+            .map(|m| (m.moon, m.view, m.lights, m.sky_view.map(|table| table.made_from)));
+        Fingerprint::of(("sky", self.plan, parts, tables, self.airglow, moon))
     }
 }
 
@@ -62,6 +80,16 @@ impl Sky {
         let camera = inputs.camera.upload(gpu, "camera");
         let observer = inputs.observer.upload(gpu, "observer");
         let place = Part::new(&tile).upload(gpu, "tile");
+        // A variant reads nothing of what it is not for; anything stands there.
+        let none = Part::new(&MoonUniform::default());
+        let moon = inputs.moon.map_or(&none, |m| m.moon).upload(gpu, "moon");
+        let moon_view = inputs
+            .moon
+            .map_or(inputs.view, |m| m.view)
+            .upload(gpu, "moon view");
+        let moon_sky_view = inputs.moon.and_then(|m| m.sky_view);
+        let face = inputs.moon.map_or(&inputs.transmittance.view, |m| m.face);
+        let airglow = inputs.airglow.upload(gpu, "airglow");
         let binds = [
             Bind::Buffer(&air),
             Bind::Buffer(&view),
@@ -74,10 +102,17 @@ impl Sky {
             Bind::Table(&inputs.sky_view.unwrap_or(inputs.source).view),
             Bind::Table(&inputs.source.view),
             Bind::Buffer(radiance),
+            Bind::Buffer(&airglow),
+            Bind::Buffer(&moon),
+            Bind::Buffer(&moon_view),
+            Bind::Table(&moon_sky_view.unwrap_or(inputs.source).view),
+            Bind::Table(face),
         ];
         let constants = [
             ("METHOD", inputs.plan.method_code()),
             ("MULTIPLE", f64::from(u8::from(inputs.plan.multiple))),
+            ("MOON", f64::from(u8::from(inputs.moon.is_some()))),
+            ("MOONLIGHT", f64::from(u8::from(moon_sky_view.is_some()))),
         ];
         let kernel = self.kernels.get(gpu, &constants);
         recorder.dispatch(kernel, &binds, [tile.size_px.x, tile.size_px.y, 1]);

@@ -254,10 +254,10 @@ fn tone() {
             white_g: vec3,
             metered: u32,
             white_b: vec3,
-            sun_angular_radius: f32,
+            glaring_angular_radius: f32,
             gain: vec3,
             glare: f32,
-            sun_irradiance: vec3,
+            glaring_irradiance: vec3,
             origin_px: uvec2,
             size_px: uvec2,
         }

@@ -54,22 +54,31 @@ pub(crate) struct MoonUniform {
     pub(crate) sun_disc_scale: f32,
     pub(crate) radiance: Vec3,
     pub(crate) earthshine: Vec3,
+    pub(crate) glares: f32,
 }
 
 impl MoonUniform {
-    pub(crate) fn new(disc: bool, seen: &MoonSeen, light: &Moonlight, uncovered: Uncovered) -> Self {
+    pub(crate) fn new(
+        disc: bool,
+        glares: bool,
+        seen: &MoonSeen,
+        light: &Moonlight,
+        uncovered: Uncovered,
+    ) -> Self {
+        let flag = |on: bool| if on { 1.0 } else { 0.0 };
         let [_, east, north] = light.axes.map(DVec3::as_vec3);
         Self {
             direction: DVec3::from_array(seen.direction).as_vec3(),
             angular_radius: narrow((seen.angular_diameter_deg / 2.0).to_radians()),
             east,
-            disc: if disc { 1.0 } else { 0.0 },
+            disc: flag(disc),
             north,
             sun_left: narrow(uncovered.disc),
             light: light.light.as_vec3(),
             sun_disc_scale: narrow(1.0 / uncovered.sky),
             radiance: light.radiance_w_m2_sr.as_vec3(),
             earthshine: light.earthshine_w_m2_sr.as_vec3(),
+            glares: flag(glares),
         }
     }
 }

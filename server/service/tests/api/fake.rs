@@ -115,10 +115,12 @@ impl Render for Fake {
                 irradiance: Irradiance {
                     direct_w_m2: [1.0; 3],
                     direct_normal_w_m2: [1.0; 3],
+                    moon_direct_normal_w_m2: [0.0; 3],
                     diffuse_w_m2: [1.0; 3],
                     sh9: [[0.0; 3]; 9],
                 },
                 sun: request.scene.sun_place(),
+                moon: request.scene.moon_place(),
             };
             failure.map_or(Ok(answer), Err)
         })
@@ -166,6 +168,8 @@ fn gradient(order: &FrameOrder) -> Frame {
         facts: FrameFacts {
             sun,
             sun_irradiance_w_m2: [1.0, 1.0, 1.0],
+            moon: order.scene.moon_place(),
+            moon_irradiance_w_m2: [0.0; 3],
             ev100: (order.output == Output::Display).then_some(14.5),
         },
     }
