@@ -101,7 +101,7 @@ impl Set {
                 name: "haze",
                 what: "the thesis' air with a layer of haze on the ground, seen from 2 m",
                 seed: 5_000,
-                groups: vec![hazy(5_000.0), hazy(1_000.0)],
+                groups: vec![hazy(5_000.0, 3e-3), hazy(1_000.0, 5e-3)],
             },
         }
     }
@@ -151,14 +151,14 @@ fn earth(suns_deg: &[f64], relative_error: f64) -> Group {
     }
 }
 
-fn hazy(visibility_m: f64) -> Group {
+fn hazy(visibility_m: f64, relative_error: f64) -> Group {
     let mut scene = thesis(1.0);
     scene["haze"] = json!({"visibility_m": visibility_m, "top_m": 1000.0, "albedo": 0.95});
     let horizontal = [(90.0, 0.0), (90.0, 90.0), (90.0, 180.0)];
     Group {
         scene,
         albedos: vec![0.0, 0.3],
-        relative_error: 3e-3,
+        relative_error,
         views: sky(2.0, &[30.0, 75.0], &[&DIRECTIONS[..], &horizontal].concat()),
     }
 }

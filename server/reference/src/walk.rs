@@ -13,6 +13,9 @@ use std::f64::consts::PI;
 /// Share of directions drawn towards the sun as the aerosols' phase function sees it: what the next vertex sends back
 /// to the eye has that peak.
 const SUN_SHARE: f64 = 0.3;
+/// Each draw towards the sun may raise a walk's weight by 1 / (1 - share); over the many turns in haze that would
+/// multiply to noise, and only the first ones can still see the sun.
+const SUN_TURNS_IN_HAZE: usize = 2;
 /// A walk whose weight fell below this share of its first weight plays Russian roulette.
 const ROULETTE_BELOW: f64 = 0.3;
 /// No walk is longer; with the roulette none comes near.
@@ -228,7 +231,12 @@ impl<'a> Walker<'a> {
             Light::Sun(sun) => Some(sun),
             Light::Uniform => None,
         };
-        let towards_sun = sun.filter(|_| random.unit() < SUN_SHARE);
+        let share = if self.medium.haze.is_none() || state.events < SUN_TURNS_IN_HAZE {
+            SUN_SHARE
+        } else {
+            0.0
+        };
+        let towards_sun = sun.filter(|_| random.unit() < share);
         let (axis, cosine) = if let Some(sun) = towards_sun {
             (sun, phase::sample_cornette_shanks(g, random))
         } else if vertex.ground {
@@ -246,7 +254,7 @@ impl<'a> Walker<'a> {
         };
         let density = sun.map_or(value, |sun| {
             let lobe = phase::cornette_shanks(sun.dot(next), g);
-            value * (1.0 - SUN_SHARE) + DVec3::splat(SUN_SHARE * lobe)
+            value * (1.0 - share) + DVec3::splat(share * lobe)
         });
         vertex.direction = next;
         vertex.weight *= value;

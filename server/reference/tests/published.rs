@@ -5,7 +5,7 @@ use serde_json::Value;
 use std::fs;
 use welkin_reference::{DVec3, Effort, Medium, View, diffuse_irradiance, radiance};
 
-const SETS: [&str; 4] = ["thesis", "earth", "above", "turbid"];
+const SETS: [&str; 5] = ["thesis", "earth", "above", "turbid", "haze"];
 /// Of so many rows one is computed again.
 const EVERY: usize = 5;
 /// Standard errors. A fault in the physics is many of them; an error that comes from 60 batches of 180 walks is itself
