@@ -73,7 +73,7 @@ fn probe(@builtin(global_invocation_id) id: vec3u) {
     }
     let transmittance = exp(-light.optical_depth);
     var between = scattered_radiance(air, view, light, nu)
-        + airglow_radiance(glow, air.radius_m, view.altitude_m, mu, select(ENDLESS_M, ground_m, ground), transmittance);
+        + airglow_radiance(glow, air.radius_m, view.altitude_m, mu, select(ENDLESS_M, ground_m, ground), light.optical_depth);
     var behind = directions[id.x].w * discs(direction);
     if ground {
         behind = ground_radiance(air, view, nu, ground_m, transmittance_table, irradiance_table, linear_clamp)

@@ -99,8 +99,8 @@ fn disc_in_pixel(place: vec2f, direction: vec3f) -> vec3f {
 
 // Most places along each side of a pixel at which the moon is looked at, and places across its disc that show all of
 // its face.
-const MOON_PLACES = 12.0;
-const FACE_PLACES = 1000.0;
+const MOON_PLACES = 48.0;
+const FACE_PLACES = 500.0;
 
 // Mean radiance of the moon's disc over a pixel, as that of the sun's.
 fn moon_in_pixel(place: vec2f, direction: vec3f) -> vec3f {
@@ -116,7 +116,8 @@ fn moon_in_pixel(place: vec2f, direction: vec3f) -> vec3f {
     let places = i32(clamp(ceil(FACE_PLACES * reach / alpha), 2.0, MOON_PLACES));
     var sum = vec3f(0.0);
     for (var i = 0; i < places * places; i++) {
-        let at = (vec2f(f32(i % places), f32(i / places)) + 0.5) / f32(places) - 0.5;
+        // A lattice of irrational steps (Roberts 2018) falls on no line of the crescent.
+        let at = fract(0.5 + f32(i) * vec2f(0.7548777, 0.5698403)) - 0.5;
         let towards = sight_at(camera, place + at).direction;
         sum += moon_radiance(moon, moon_face, linear_clamp, place_on_moon(moon, alpha, towards));
     }
@@ -161,16 +162,16 @@ fn radiance_towards(direction: vec3f, disc: vec3f) -> vec3f {
     var sum = vec3f(0.0);
     if above > 0.0 {
         let angle = min(zenith_angle, horizon);
-        var left = vec3f(1.0);
+        var depth = vec3f(0.0);
         if angle >= least_zenith_angle(air.radius_m, air.top_m, view.altitude_m) {
             let light = light_in_air(SkyViewRay(azimuth, angle, false, 0.0), mu, nu);
-            left = exp(-light.optical_depth);
+            depth = light.optical_depth;
             sum += above * scattered_radiance(air, view, light, nu);
             if MOONLIGHT {
                 sum += above * moonlight_in_air(direction, mu, angle, false, 0.0);
             }
         }
-        sum += above * (left * disc + airglow_radiance(glow, air.radius_m, view.altitude_m, mu, ENDLESS_M, left));
+        sum += above * (exp(-depth) * disc + airglow_radiance(glow, air.radius_m, view.altitude_m, mu, ENDLESS_M, depth));
     }
     if above < 1.0 {
         // The edge of the sphere where the pixel's centre is just above it.
@@ -182,7 +183,7 @@ fn radiance_towards(direction: vec3f, disc: vec3f) -> vec3f {
         var ground = ground_radiance(air, view, nu, distance_m, transmittance_table, irradiance_table, linear_clamp)
             + air.ground_albedo / PI * glow.ground_irradiance;
         var between = scattered_radiance(air, view, light, nu)
-            + airglow_radiance(glow, air.radius_m, view.altitude_m, mu, distance_m, left);
+            + airglow_radiance(glow, air.radius_m, view.altitude_m, mu, distance_m, light.optical_depth);
         if MOONLIGHT {
             let nu_moon = clamp(dot(direction, moon_view.sun), -1.0, 1.0);
             ground += ground_radiance(air, moon_view, nu_moon, distance_m, transmittance_table, irradiance_table, linear_clamp);

@@ -23,6 +23,8 @@ const SCENES: &[(&str, &str, u32, u32)] = &[
     ("clear-noon", "preset:clear-noon", 160, 90),
     ("golden-hour", "preset:golden-hour", 160, 90),
     ("twilight", "preset:twilight", 160, 90),
+    ("moonlit-night", "preset:moonlit-night", 160, 90),
+    ("starry-night", "preset:starry-night", 160, 90),
     ("from-orbit", "preset:from-orbit", 160, 90),
     ("complutense", "preset:complutense", 160, 90),
     (

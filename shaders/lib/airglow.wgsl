@@ -11,6 +11,10 @@ struct Airglow {
     top_m: f32,
     // On level ground, from the shell and the stars.
     ground_irradiance: vec3f,
+    // How much of what the air takes out of a ray it gives back: 1 deep in the air, 0 far above it.
+    inside: f32,
+    // Optical depth straight up.
+    zenith_depth: vec3f,
 }
 
 // Where a ray enters and leaves the sphere of altitude `sphere_m`; empty, both zero, where it misses.
@@ -37,8 +41,17 @@ fn lengths_in_shell(radius_m: f32, base_m: f32, top_m: f32, altitude_m: f32, mu:
     return vec2f(max(inner.x - outer.x, 0.0), max(outer.y - inner.y, 0.0));
 }
 
+// Optical depth that counts for a sky that shines all over, seen from within the air, which scatters into a ray nearly what
+// it scatters out of it: f τ₀ with f = 1.669 log10 X - 0.146 at X air masses (Noll et al. 2012 §3, for molecules).
+fn depth_of_bright_sky(glow: Airglow, depth: vec3f) -> vec3f {
+    let air_masses = max(depth / max(glow.zenith_depth, vec3f(1e-6)), vec3f(1.0));
+    let within = glow.zenith_depth * max(1.669 / log2(10.0) * log2(air_masses) - 0.146, vec3f(0.0));
+    return mix(depth, within, glow.inside);
+}
+
 // Radiance of the shell, and of what the air in front of it scatters of its light.
-fn airglow_radiance(glow: Airglow, radius_m: f32, altitude_m: f32, mu: f32, length_m: f32, transmittance: vec3f) -> vec3f {
+fn airglow_radiance(glow: Airglow, radius_m: f32, altitude_m: f32, mu: f32, length_m: f32, depth: vec3f) -> vec3f {
     let lengths = lengths_in_shell(radius_m, glow.base_m, glow.top_m, altitude_m, mu, length_m);
-    return glow.emission_per_m * (lengths.x + transmittance * lengths.y) + (1.0 - transmittance) * glow.scattered;
+    let left = exp(-select(depth, depth_of_bright_sky(glow, depth), lengths.y > 0.0));
+    return glow.emission_per_m * (lengths.x + left * lengths.y) + (1.0 - left) * glow.scattered;
 }

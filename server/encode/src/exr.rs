@@ -1,7 +1,8 @@
 //! OpenEXR: one part, channels R G B, scan lines with ZIP over 16 of them, as every reader expects.
 //!
 //! Attributes: `chromaticities` of Rec. 709; `software`; `sunAzimuthDeg`, `sunElevationDeg` and `sunIrradiance`
-//! (R G B, W/m², at the observer on a plane that faces the sun); `radianceUnit`; `scene`; `clampedSamples`.
+//! (R G B, W/m², at the observer on a plane that faces the sun); the same three of the moon, `moonAzimuthDeg` and so on,
+//! where there is one; `radianceUnit`; `scene`; `clampedSamples`.
 
 use crate::{
     Options,
@@ -95,6 +96,12 @@ fn attributes(frame: &Frame, options: &Options) -> LayerAttributes {
     add("sunAzimuthDeg", AttributeValue::F32(sun.azimuth_deg as f32));
     add("sunElevationDeg", AttributeValue::F32(sun.elevation_deg as f32));
     add("sunIrradiance", AttributeValue::FloatVec3((r, g, b)));
+    if let Some(moon) = frame.facts.moon {
+        let [r, g, b] = frame.facts.moon_irradiance_w_m2.map(|value| value as f32);
+        add("moonAzimuthDeg", AttributeValue::F32(moon.azimuth_deg as f32));
+        add("moonElevationDeg", AttributeValue::F32(moon.elevation_deg as f32));
+        add("moonIrradiance", AttributeValue::FloatVec3((r, g, b)));
+    }
     add("radianceUnit", AttributeValue::Text(Text::from("W m^-2 sr^-1")));
     if let Some(scene) = &options.scene_json {
         add("scene", AttributeValue::Text(text(scene)));
@@ -208,6 +215,9 @@ mod tests {
                 ("sunAzimuthDeg", AttributeValue::F32(123.25)),
                 ("sunElevationDeg", AttributeValue::F32(-4.5)),
                 ("sunIrradiance", AttributeValue::FloatVec3((1.5, 1.25, 0.75))),
+                ("moonAzimuthDeg", AttributeValue::F32(40.5)),
+                ("moonElevationDeg", AttributeValue::F32(30.25)),
+                ("moonIrradiance", AttributeValue::FloatVec3((4e-6, 3e-6, 2e-6))),
                 ("radianceUnit", AttributeValue::Text(Text::from("W m^-2 sr^-1"))),
                 (
                     "scene",

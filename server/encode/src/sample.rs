@@ -3,6 +3,7 @@
 use crate::output_for;
 use welkin_scene::{
     frame::Format,
+    moon::MoonPlace,
     probe::SunPlace,
     renderer::{Frame, FrameFacts, Output, Pixels},
 };
@@ -60,8 +61,15 @@ fn frame(width: u16, height: u16, pixels: Pixels) -> Frame {
                 elevation_deg: -4.5,
             },
             sun_irradiance_w_m2: [1.5, 1.25, 0.75],
-            moon: None,
-            moon_irradiance_w_m2: [0.0; 3],
+            moon: Some(MoonPlace {
+                azimuth_deg: 40.5,
+                elevation_deg: 30.25,
+                phase_angle_deg: 20.0,
+                illuminated_fraction: 0.97,
+                angular_diameter_deg: 0.518,
+                distance_m: 3.844e8,
+            }),
+            moon_irradiance_w_m2: [4e-6, 3e-6, 2e-6],
             ev100: None,
         },
     }

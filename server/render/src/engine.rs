@@ -153,7 +153,7 @@ impl Engine {
                 self.sky_view
                     .run(&mut recorder, air, &stand, reads, tables.plan, order.quality)
             });
-            let glow = airglow(&mut self.night_light, scene, &tables.air);
+            let glow = airglow(&mut self.night_light, scene, &tables);
             let face = || moon_face(&self.moon_face, gpu);
             let lights = Lights::new(scene, &tables.stand, night, glow, face, moon_sky_view);
             let stars = scene.stars.as_ref().filter(|_| night.stars > 0.0).map(|stars| {
@@ -280,7 +280,7 @@ impl Engine {
             let tables = Self::tables(passes, &mut recorder, scene, Quality::Final);
             recorder.finish(&[], |_| ())?;
             let night = Night::new(scene, &tables.stand);
-            let glow = airglow(&mut self.night_light, scene, &tables.air);
+            let glow = airglow(&mut self.night_light, scene, &tables);
             let face = || moon_face(&self.moon_face, gpu);
             let lights = Lights::new(scene, &tables.stand, night, glow, face, None);
             let moon_stand = night.moon.map(|moon| moon.stand(&tables.stand));
@@ -341,13 +341,11 @@ fn moon_face(kept: &OnceCell<wgpu::TextureView>, gpu: &Gpu) -> wgpu::TextureView
 }
 
 /// The night sky's own light; summed anew when air or stars change.
-fn airglow(memo: &mut Memo<NightLight>, scene: &Scene, air: &Part) -> Part {
+fn airglow(memo: &mut Memo<NightLight>, scene: &Scene, tables: &Tables) -> Part {
     let glow = scene.atmosphere.as_ref().map(|air| &air.airglow);
-    let made_from = Fingerprint::of((air, format!("{glow:?} {:?}", scene.stars)));
-    Part::new(&AirglowUniform::new(
-        scene,
-        &memo.get_or(made_from, || night_light(scene)),
-    ))
+    let made_from = Fingerprint::of((&tables.air, format!("{glow:?} {:?}", scene.stars)));
+    let light = memo.get_or(made_from, || night_light(scene));
+    Part::new(&AirglowUniform::new(scene, &light, tables.stand.altitude_m))
 }
 
 /// What a frame says of itself.

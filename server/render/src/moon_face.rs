@@ -149,16 +149,16 @@ fn albedo(at: DVec3) -> DVec3 {
             noise(at * scale, seed + 2),
         )
     };
-    let pushed = (at + 0.085 * push(4.0, 1) + 0.03 * push(14.0, 11)).normalize();
+    let pushed = (at + 0.075 * push(4.0, 1) + 0.03 * push(14.0, 11)).normalize();
     // Circles that come close flow into one another.
     let flooded: f64 = MARIA
         .iter()
         .map(|(latitude, longitude, km)| {
             let off_km = pushed.angle_between(unit(*latitude, *longitude)).to_degrees() * KM_PER_DEG;
-            (SHORE.ln() * (2.0 * off_km / km).powi(2)).exp()
+            (SHORE.ln() * (2.0 * off_km / km).powi(4)).exp()
         })
         .sum();
-    let sea = smooth((flooded - SHORE + 0.10 * noise(at * 9.0, 21)) / 0.22 + 0.5);
+    let sea = smooth((flooded - SHORE + 0.12 * noise(at * 9.0, 21)) / 0.3 + 0.5);
     // Basalt flows differ by a sixth; highlands are mottled by old craters.
     let flows = 1.0 + 0.22 * noise(at * 5.0, 5);
     let mottle = 1.0 + 0.12 * noise(at * 7.0, 6) + 0.16 * noise(at * 28.0, 7);

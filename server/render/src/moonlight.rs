@@ -104,7 +104,7 @@ impl Moonlight {
 /// Mean over the disc of face times 2 mu0 / (mu0 + mu): by Gauss and Legendre along the parallels of the luminance
 /// equator, from the terminator to the lit limb, so that the thinnest crescent is as exact as the full disc.
 fn lit_mean(light: DVec3) -> DVec3 {
-    const NODES: usize = 48;
+    const NODES: usize = 64;
     let towards = DVec3::X;
     let Some(across) = (light - towards * light.x).try_normalize() else {
         // Full, or new, where a mean of zero would serve nobody.

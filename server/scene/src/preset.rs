@@ -7,6 +7,7 @@ use crate::{
     direction::Direction,
     display::{Display, Exposure, ToneCurve},
     document::Scene,
+    moon::Moon,
     planet::Planet,
     sun::{Sun, SunPosition},
 };
@@ -38,7 +39,7 @@ pub fn preset(name: &str) -> Option<&'static Preset> {
     presets().iter().find(|preset| preset.name == name)
 }
 
-static PRESETS: LazyLock<[Preset; 5]> = LazyLock::new(|| {
+static PRESETS: LazyLock<[Preset; 7]> = LazyLock::new(|| {
     [
         Preset {
             name: "clear-noon",
@@ -76,6 +77,31 @@ static PRESETS: LazyLock<[Preset; 5]> = LazyLock::new(|| {
             },
         },
         Preset {
+            name: "moonlit-night",
+            title: "Moonlit night",
+            description: "A moon two days before full, half-way up in the south-east; the bright stars of winter about it.",
+            scene: Scene {
+                camera: looking(165.0, 17.0),
+                sun: sun(330.0, -40.0),
+                moon: Some(Moon {
+                    position: Some(Direction::angles(150.0, 28.0)),
+                    ..Moon::default()
+                }),
+                ..night(4_500.0)
+            },
+        },
+        Preset {
+            name: "starry-night",
+            title: "Starry night",
+            description: "No moon: the stars of a February evening over the south, Orion and Sirius before the airglow.",
+            scene: Scene {
+                camera: looking(180.0, 25.0),
+                sun: sun(330.0, -40.0),
+                moon: None,
+                ..night(4_000.0)
+            },
+        },
+        Preset {
             name: "from-orbit",
             title: "From orbit",
             description: "The limb from 400 km up with the sun low behind it: the air is a thin blue line.",
@@ -90,6 +116,17 @@ static PRESETS: LazyLock<[Preset; 5]> = LazyLock::new(|| {
         },
     ]
 });
+
+/// As photographers set the white of a night.
+fn night(white_balance_k: f64) -> Scene {
+    Scene {
+        display: Display {
+            white_balance_k,
+            ..Display::default()
+        },
+        ..Scene::default()
+    }
+}
 
 fn looking(azimuth_deg: f64, elevation_deg: f64) -> Camera {
     Camera {

@@ -6,6 +6,7 @@ use crate::{
     uniforms::{
         AirUniform, IntegralUniform, MeterUniform, ObserverUniform, OrderUniform, Part, TileUniform,
         ToneUniform, ViewUniform,
+        night::{AirglowUniform, MoonUniform, StretchUniform},
     },
 };
 use glam::{UVec2, Vec2, Vec3};
@@ -265,6 +266,53 @@ fn tone() {
     check(&[&shader::TONE], "Tone", &part, &f);
 }
 
+#[test]
+fn night() {
+    let mut f = Filled::default();
+    let part = filled!(
+        f,
+        AirglowUniform {
+            emission_per_m: vec3,
+            base_m: f32,
+            scattered: vec3,
+            top_m: f32,
+            ground_irradiance: vec3,
+            inside: f32,
+            zenith_depth: vec3,
+        }
+    );
+    check(&[&shader::SKY, &shader::PROBE], "Airglow", &part, &f);
+    let mut f = Filled::default();
+    let part = filled!(
+        f,
+        MoonUniform {
+            direction: vec3,
+            angular_radius: f32,
+            east: vec3,
+            disc: f32,
+            north: vec3,
+            sun_left: f32,
+            light: vec3,
+            sun_disc_scale: f32,
+            radiance: vec3,
+            earthshine: vec3,
+            glares: f32,
+        }
+    );
+    check(&[&shader::SKY, &shader::PROBE], "Moon", &part, &f);
+    let mut f = Filled::default();
+    let part = filled!(
+        f,
+        StretchUniform {
+            first: u32,
+            count: u32,
+            origin: u32,
+            out: f32
+        }
+    );
+    check(&[&shader::STARS], "Stretch", &part, &f);
+}
+
 /// What the shaders bind as uniforms, so that a new one cannot go without a test above.
 #[test]
 fn every_uniform_is_tested() {
@@ -274,6 +322,7 @@ fn every_uniform_is_tested() {
         &shader::MULTI_SCATTERING,
         &shader::SKY_VIEW,
         &shader::SKY,
+        &shader::STARS,
         &shader::EXPOSURE,
         &shader::TONE,
         &shader::PROBE,
@@ -298,9 +347,19 @@ fn every_uniform_is_tested() {
         ("sky", "Camera"),
         ("sky", "Tile"),
         ("sky", "Observer"),
+        ("sky", "Airglow"),
+        ("sky", "Moon"),
+        ("sky", "View"),
+        ("stars", "Air"),
+        ("stars", "View"),
+        ("stars", "Stretch"),
         ("exposure", "Meter"),
         ("tone", "Tone"),
         ("probe", "Air"),
+        ("probe", "View"),
+        ("probe", "Observer"),
+        ("probe", "Airglow"),
+        ("probe", "Moon"),
         ("probe", "View"),
         ("probe", "Observer"),
     ];

@@ -14,6 +14,7 @@ mod geometry;
 mod half_tables;
 mod layout;
 mod lens;
+mod night;
 mod phase;
 mod scattering;
 mod tables;

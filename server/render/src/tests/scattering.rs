@@ -39,8 +39,10 @@ fn worst(air: &Atmosphere, altitudes_m: &[f64], suns_deg: &[f64]) -> (f64, Strin
             let mut scene = Scene {
                 atmosphere: Some(Atmosphere {
                     orders: Orders::Single,
+                    airglow: None,
                     ..air.clone()
                 }),
+                stars: None,
                 ..Scene::default()
             };
             scene.camera.position_m = [0.0, 0.0, *altitude_m];

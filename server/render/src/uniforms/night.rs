@@ -1,8 +1,11 @@
 //! The night's uniforms.
 
-use super::narrow;
+use super::{narrow, narrow3};
 use crate::{
-    cpu::airglow::{NightLight, emission_per_m},
+    cpu::{
+        air::optical_depth_to_space,
+        airglow::{NightLight, emission_per_m},
+    },
     moonlight::{Moonlight, Uncovered},
 };
 use encase::ShaderType;
@@ -26,10 +29,15 @@ pub(crate) struct AirglowUniform {
     pub(crate) scattered: Vec3,
     pub(crate) top_m: f32,
     pub(crate) ground_irradiance: Vec3,
+    pub(crate) inside: f32,
+    pub(crate) zenith_depth: Vec3,
 }
 
+/// Height over which an observer leaves the air that shines about them, metres.
+const LEFT_BELOW_M: f64 = 20_000.0;
+
 impl AirglowUniform {
-    pub(crate) fn new(scene: &Scene, night: &NightLight) -> Self {
+    pub(crate) fn new(scene: &Scene, night: &NightLight, altitude_m: f64) -> Self {
         let glow = scene.atmosphere.as_ref().and_then(|air| air.airglow.as_ref());
         Self {
             emission_per_m: glow.map_or(Vec3::ZERO, |g| emission_per_m(g).as_vec3()),
@@ -37,6 +45,8 @@ impl AirglowUniform {
             scattered: night.mean_radiance_w_m2_sr.as_vec3(),
             top_m: glow.map_or(0.0, |g| narrow(g.top_m)),
             ground_irradiance: night.ground_irradiance_w_m2.as_vec3(),
+            inside: narrow((-altitude_m / LEFT_BELOW_M).exp()),
+            zenith_depth: narrow3(optical_depth_to_space(scene, altitude_m, 1.0).unwrap_or_default()),
         }
     }
 }

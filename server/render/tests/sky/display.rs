@@ -200,7 +200,7 @@ fn the_meter_follows_the_light() {
 
 #[test]
 fn radiance_has_no_exposure() {
-    let linear = frame(order(Scene::default(), 16, 16, Quality::Preview, Output::Linear));
+    let linear = frame(order(scene(json!({})), 16, 16, Quality::Preview, Output::Linear));
     assert_eq!(linear.facts.ev100, None);
     let exposed = scene(
         json!({"display": {"exposure": {"kind": "ev", "ev": 3}, "tone_curve": "aces",

@@ -13,6 +13,8 @@ mod display;
 mod frames;
 mod horizon;
 mod lens;
+mod moon;
+mod night;
 mod orders;
 mod projections;
 mod queue;

@@ -17,8 +17,22 @@ pub(crate) fn renderer() -> &'static Renderer {
     &RENDERER
 }
 
-/// The default scene with changes, as JSON has them.
+/// The default scene with changes, as JSON has them, and lit by the sun alone unless these say otherwise.
 pub(crate) fn scene(changes: Value) -> Scene {
+    let mut scene: Scene = serde_json::from_value(changes.clone()).unwrap();
+    if changes.get("stars").is_none() {
+        scene.stars = None;
+    }
+    if let Some(air) = scene.atmosphere.as_mut()
+        && changes.pointer("/atmosphere/airglow").is_none()
+    {
+        air.airglow = None;
+    }
+    scene
+}
+
+/// The default scene with changes, the night's lights among them.
+pub(crate) fn whole(changes: Value) -> Scene {
     serde_json::from_value(changes).unwrap()
 }
 

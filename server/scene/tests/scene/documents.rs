@@ -57,6 +57,8 @@ fn presets_are_valid_scenes() {
             "clear-noon",
             "golden-hour",
             "twilight",
+            "moonlit-night",
+            "starry-night",
             "from-orbit",
             "complutense"
         ]

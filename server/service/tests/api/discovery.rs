@@ -15,6 +15,8 @@ async fn presets_are_listed_and_each_renders() {
         "clear-noon",
         "golden-hour",
         "twilight",
+        "moonlit-night",
+        "starry-night",
         "from-orbit",
         "complutense",
     ] {
