@@ -79,7 +79,7 @@ static PRESETS: LazyLock<[Preset; 7]> = LazyLock::new(|| {
         Preset {
             name: "moonlit-night",
             title: "Moonlit night",
-            description: "A moon two days before full, half-way up in the south-east; the bright stars of winter about it.",
+            description: "A moon a day before full in the south-south-east, and the bright stars of winter about it.",
             scene: Scene {
                 camera: looking(165.0, 17.0),
                 sun: sun(330.0, -40.0),
