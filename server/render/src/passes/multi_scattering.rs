@@ -46,11 +46,15 @@ impl Wanted {
             .haze
             .as_ref()
             .map_or(0.0, |haze| haze.extinction() * haze.top_m);
-        // Light goes through a depth τ of haze in about τ² scatterings, most of which change it little.
-        let orders = [(0.5, 4), (2.0, 8), (8.0, 16)]
+        // Light goes through a depth τ of haze in about τ² scatterings, most of which change it little; and between
+        // white ground and air it goes back and forth.
+        let in_haze = [(0.5, 5), (2.0, 10), (8.0, 18)]
             .into_iter()
             .find(|(depth, _)| haze_depth < *depth)
             .map_or(32, |(_, orders)| orders);
+        let brightest = scene.planet.ground_albedo.into_iter().fold(0.0, f64::max);
+        let over_ground = if brightest > 0.5 { 9 } else { 5 };
+        let orders = over_ground.max(in_haze);
         Self {
             quality,
             multiple,
@@ -86,7 +90,7 @@ const FINAL: Detail = Detail {
     view_cosines: 12,
     polar: 8,
     azimuths: 8,
-    steps: 20,
+    steps: 24,
 };
 
 struct Kernels {
