@@ -13,7 +13,7 @@
 // times weighted means: ∫ p(ω·v) L dω as the mean of L with the weights p, and of the light that aerosols scattered
 // first, L = p(ω·s) B(ω), as (p*p)(v·s) times the mean of B with the weights p(ω·v) p(ω·s), where p*p is the phase
 // function convolved with itself, from a list.
-import package::lib::air::{Air, coefficients_at};
+import package::lib::air::{Air, Coefficients, coefficients_at};
 import package::lib::geometry::{PI, cosine_after, distance_to_sphere, distance_to_top, horizon_distance_squared};
 import package::lib::phase::{rayleigh_phase, cornette_shanks_phase};
 import package::lib::scattering::{AirRay, March, scatter_along};
@@ -52,20 +52,21 @@ struct Order {
 @group(0) @binding(10) var<storage, read> twice_scattered: array<f32>;
 
 const THREADS = 32u;
+// Directions of view of one thread: of 64 or 96 in all.
+const VIEWS = 3u;
 // 2 · POLAR · AZIMUTHS of the largest variant.
 const MOST_DIRECTIONS = 160u;
 
 struct Incoming {
-    // Even light: molecules, ground, later orders.
+    // Light times solid angle; the solid angle of the direction, and of its mirror image too. Even light: molecules,
+    // ground, later orders.
     light: vec3f,
-    mu: f32,
-    // Light that aerosols scattered first, without their phase function.
-    mie: vec3f,
-    cos_azimuth: f32,
-    // Solid angle of the direction and of its mirror image, each.
     weight: f32,
-    // The aerosols' phase function towards the sun.
-    phase: f32,
+    // Light that aerosols scattered first, and the solid angle, both times the aerosols' phase function towards the sun.
+    mie: vec3f,
+    mie_weight: f32,
+    // x towards the sun's azimuth, z up.
+    direction: vec3f,
 }
 
 var<workgroup> incoming: array<Incoming, 160>;
@@ -75,23 +76,22 @@ fn look(h: f32, mu_s: f32, index: u32) -> Incoming {
     let node = nodes[(index / AZIMUTHS) % POLAR];
     let reach = select(-1.0 - horizon, 1.0 - horizon, index < POLAR * AZIMUTHS);
     let mu = clamp(horizon + reach * node.x * node.x, -1.0, 1.0);
-    var seen: Incoming;
-    seen.mu = mu;
-    seen.cos_azimuth = cos(PI * (f32(index % AZIMUTHS) + 0.5) / f32(AZIMUTHS));
+    let cos_azimuth = cos(PI * (f32(index % AZIMUTHS) + 0.5) / f32(AZIMUTHS));
     // dω = dmu dφ
-    seen.weight = node.y * 2.0 * node.x * abs(reach) * PI / f32(AZIMUTHS);
-    let nu = clamp(mu * mu_s + sqrt((1.0 - mu * mu) * (1.0 - mu_s * mu_s)) * seen.cos_azimuth, -1.0, 1.0);
+    let weight = node.y * 2.0 * node.x * abs(reach) * PI / f32(AZIMUTHS);
+    let sine = sqrt(1.0 - mu * mu);
+    let nu = clamp(mu * mu_s + sine * sqrt(1.0 - mu_s * mu_s) * cos_azimuth, -1.0, 1.0);
     let to_ground = distance_to_sphere(air.radius_m, h, mu);
     let ground = to_ground >= 0.0;
     let length_m = select(distance_to_top(air.radius_m, air.top_m, h, mu), to_ground, ground);
     let ray = AirRay(h, mu, mu_s, nu, length_m);
     let march = March(FIRST, !FIRST, false, order.steps, 0u);
     let scattered = scatter_along(air, ray, transmittance_table, source_before, linear_clamp, march);
-    seen.light = scattered.multiple;
+    var light = scattered.multiple;
+    var mie_weight = 0.0;
     if FIRST {
-        seen.light = rayleigh_phase(nu) * scattered.rayleigh;
-        seen.mie = scattered.mie;
-        seen.phase = cornette_shanks_phase(nu, air.mie_asymmetry);
+        light = rayleigh_phase(nu) * scattered.rayleigh;
+        mie_weight = weight * cornette_shanks_phase(nu, air.mie_asymmetry);
     }
     if ground {
         let mu_s_ground = cosine_after(air.radius_m, h, 0.0, mu_s, nu, length_m);
@@ -100,9 +100,43 @@ fn look(h: f32, mu_s: f32, index: u32) -> Incoming {
         if FIRST {
             lit = max(mu_s_ground, 0.0) * transmittance_to_space(air, transmittance_table, linear_clamp, 0.0, mu_s_ground);
         }
-        seen.light += exp(-scattered.optical_depth) * air.ground_albedo / PI * lit;
+        light += exp(-scattered.optical_depth) * air.ground_albedo / PI * lit;
     }
-    return seen;
+    let direction = vec3f(sine * cos_azimuth, sine * sqrt(1.0 - cos_azimuth * cos_azimuth), mu);
+    return Incoming(weight * light, weight, mie_weight * scattered.mie, mie_weight, direction);
+}
+
+// Sums over the directions of what reaches one direction of view.
+struct Gathered {
+    molecules: vec3f,
+    aerosols: vec3f,
+    aerosols_weight: f32,
+    again: vec3f,
+    again_weight: f32,
+}
+
+// Cornette and Shanks without the factor before 1 + cos²θ, which means do not see.
+fn aerosol_weight(nu: f32) -> f32 {
+    let g = air.mie_asymmetry;
+    let inverse = inverseSqrt(max((1.0 - g) * (1.0 - g) + 2.0 * g * (1.0 - nu), 1e-10));
+    return (1.0 + nu * nu) * inverse * inverse * inverse;
+}
+
+fn gather(before: Gathered, seen: Incoming, view: vec3f) -> Gathered {
+    var g = before;
+    // The direction and its mirror image beyond the sun's plane.
+    let left = dot(seen.direction, view);
+    let right = left - 2.0 * seen.direction.y * view.y;
+    let by_molecules = rayleigh_phase(left) + rayleigh_phase(right);
+    let by_aerosols = aerosol_weight(left) + aerosol_weight(right);
+    g.molecules += by_molecules * seen.light;
+    g.aerosols += by_aerosols * seen.light;
+    g.aerosols_weight += by_aerosols * seen.weight;
+    if FIRST {
+        g.again += by_aerosols * seen.mie;
+        g.again_weight += by_aerosols * seen.mie_weight;
+    }
+    return g;
 }
 
 fn convolved_phase(nu: f32) -> f32 {
@@ -112,63 +146,70 @@ fn convolved_phase(nu: f32) -> f32 {
     return mix(twice_scattered[i], twice_scattered[i + 1u], at - f32(i));
 }
 
-fn source_towards(h: f32, in_haze: bool, mu_s: f32, mu: f32, azimuth: f32) -> vec3f {
-    let g = air.mie_asymmetry;
-    let sine = sqrt(1.0 - mu * mu);
-    let cos_azimuth = cos(azimuth);
-    let sin_azimuth = sin(azimuth);
-    var molecules = vec3f(0.0);
-    var aerosols = vec3f(0.0);
-    var aerosols_norm = 0.0;
-    var again = vec3f(0.0);
-    var again_norm = 0.0;
-    // Of the light that aerosols scattered first, as molecules see it.
-    var peak = vec3f(0.0);
-    var peak_norm = 0.0;
+// The moments of the first light that aerosols scattered, which molecules see: ∫ L dω and ∫ ω ω L dω, as
+// 1 + (ω·v)² asks for no others. Its peak is narrower than the directions are apart, but its energy is known.
+struct Peak {
+    mean: vec3f,
+    // xx, yy, zz and xz of ω ω.
+    square: array<vec3f, 4>,
+    // Cosine times light, for the ground.
+    falling: vec3f,
+}
+
+var<workgroup> peak: Peak;
+
+fn gather_peak() {
+    var sum: Peak;
+    var weight = 0.0;
     for (var i = 0u; i < 2u * POLAR * AZIMUTHS; i++) {
         let seen = incoming[i];
-        let across = sine * sqrt(1.0 - seen.mu * seen.mu);
-        let along = mu * seen.mu + across * cos_azimuth * seen.cos_azimuth;
-        let aside = across * sin_azimuth * sqrt(max(1.0 - seen.cos_azimuth * seen.cos_azimuth, 0.0));
-        // The direction and its mirror image beyond the sun's plane.
-        let left = clamp(along + aside, -1.0, 1.0);
-        let right = clamp(along - aside, -1.0, 1.0);
-        let by_molecules = seen.weight * (rayleigh_phase(left) + rayleigh_phase(right));
-        let by_aerosols = seen.weight * (cornette_shanks_phase(left, g) + cornette_shanks_phase(right, g));
-        molecules += by_molecules * seen.light;
-        aerosols += by_aerosols * seen.light;
-        aerosols_norm += by_aerosols;
-        if FIRST {
-            peak += by_molecules * seen.phase * seen.mie;
-            peak_norm += 2.0 * seen.weight * seen.phase;
-            again += by_aerosols * seen.phase * seen.mie;
-            again_norm += by_aerosols * seen.phase;
-        }
+        let d = seen.direction;
+        weight += 2.0 * seen.mie_weight;
+        sum.mean += 2.0 * seen.mie;
+        sum.square[0] += 2.0 * d.x * d.x * seen.mie;
+        sum.square[1] += 2.0 * d.y * d.y * seen.mie;
+        sum.square[2] += 2.0 * d.z * d.z * seen.mie;
+        sum.square[3] += 2.0 * d.x * d.z * seen.mie;
+        sum.falling += 2.0 * max(d.z, 0.0) * seen.mie;
     }
-    var to_aerosols = aerosols / max(aerosols_norm, 1e-9);
+    let norm = 1.0 / max(weight, 1e-9);
+    peak.mean = norm * sum.mean;
+    for (var k = 0u; k < 4u; k++) {
+        peak.square[k] = norm * sum.square[k];
+    }
+    peak.falling = norm * sum.falling;
+}
+
+// The source function in one direction of view.
+fn source_towards(g: Gathered, view: vec3f, sun: vec3f, c: Coefficients) -> vec3f {
+    var molecules = g.molecules;
+    var aerosols = g.aerosols / max(g.aerosols_weight, 1e-9);
     if FIRST {
-        let nu = mu * mu_s + sine * sqrt(1.0 - mu_s * mu_s) * cos_azimuth;
-        molecules += peak / max(peak_norm, 1e-9);
-        to_aerosols += convolved_phase(nu) * again / max(again_norm, 1e-9);
+        let square = view.x * view.x * peak.square[0] + view.y * view.y * peak.square[1]
+            + view.z * view.z * peak.square[2] + 2.0 * view.x * view.z * peak.square[3];
+        molecules += 3.0 / (16.0 * PI) * (peak.mean + square);
+        aerosols += convolved_phase(dot(view, sun)) * g.again / max(g.again_weight, 1e-9);
     }
-    let c = coefficients_at(air, h, in_haze);
     let all = c.rayleigh_per_m + c.mie_per_m;
-    return (c.rayleigh_per_m * molecules + c.mie_per_m * to_aerosols) / max(all, vec3f(1e-30));
+    return (c.rayleigh_per_m * molecules + c.mie_per_m * aerosols) / max(all, vec3f(1e-30));
 }
 
 fn light_on_ground() -> vec3f {
     var light = vec3f(0.0);
-    var peak = vec3f(0.0);
-    var peak_norm = 0.0;
     for (var i = 0u; i < POLAR * AZIMUTHS; i++) {
-        let seen = incoming[i];
-        light += 2.0 * seen.weight * max(seen.mu, 0.0) * seen.light;
-        peak += 2.0 * seen.weight * max(seen.mu, 0.0) * seen.phase * seen.mie;
+        light += 2.0 * max(incoming[i].direction.z, 0.0) * incoming[i].light;
     }
-    for (var i = 0u; i < 2u * POLAR * AZIMUTHS; i++) {
-        peak_norm += 2.0 * incoming[i].weight * incoming[i].phase;
+    if FIRST {
+        light += peak.falling;
     }
-    return light + peak / max(peak_norm, 1e-9);
+    return light;
+}
+
+fn view_direction(view: u32, view_cosines: u32) -> vec3f {
+    let mu = sun_cosine_point(f32(view / VIEW_AZIMUTHS) / f32(view_cosines - 1u));
+    let azimuth = PI * f32(view % VIEW_AZIMUTHS) / f32(VIEW_AZIMUTHS - 1u);
+    let sine = sqrt(max(1.0 - mu * mu, 0.0));
+    return vec3f(sine * cos(azimuth), sine * sin(azimuth), mu);
 }
 
 @compute @workgroup_size(32)
@@ -179,14 +220,36 @@ fn multi_scattering(@builtin(workgroup_id) texel: vec3u, @builtin(local_invocati
         incoming[i] = look(p.altitude_m, p.mu_s, i);
     }
     workgroupBarrier();
+    if FIRST {
+        if thread == 0u {
+            gather_peak();
+        }
+        workgroupBarrier();
+    }
     let views = textureNumLayers(source);
     let view_cosines = views / VIEW_AZIMUTHS;
+    // Each thread gathers for VIEWS directions of view at once: a direction is fetched once for all of them.
+    var view: array<vec3f, VIEWS>;
+    var gathered: array<Gathered, VIEWS>;
+    for (var k = 0u; k < VIEWS; k++) {
+        view[k] = view_direction(min(thread + k * THREADS, views - 1u), view_cosines);
+        gathered[k] = Gathered();
+    }
+    for (var i = 0u; i < 2u * POLAR * AZIMUTHS; i++) {
+        let seen = incoming[i];
+        for (var k = 0u; k < VIEWS; k++) {
+            gathered[k] = gather(gathered[k], seen, view[k]);
+        }
+    }
+    let c = coefficients_at(air, p.altitude_m, p.in_haze);
+    let sun = vec3f(sqrt(1.0 - p.mu_s * p.mu_s), 0.0, p.mu_s);
     let cell = 2u * (views + 1u) * (texel.y * size.x + texel.x);
-    for (var view = thread; view < views; view += THREADS) {
-        let mu = sun_cosine_point(f32(view / VIEW_AZIMUTHS) / f32(view_cosines - 1u));
-        let azimuth = PI * f32(view % VIEW_AZIMUTHS) / f32(VIEW_AZIMUTHS - 1u);
-        let found = source_towards(p.altitude_m, p.in_haze, p.mu_s, mu, azimuth);
-        textureStore(source, texel.xy, view, vec4f(with_orders_before(cell + 2u * view, found), 0.0));
+    for (var k = 0u; k < VIEWS; k++) {
+        let index = thread + k * THREADS;
+        if index < views {
+            let found = source_towards(gathered[k], view[k], sun, c);
+            textureStore(source, texel.xy, index, vec4f(with_orders_before(cell + 2u * index, found), 0.0));
+        }
     }
     if texel.y == 0u && thread == THREADS - 1u {
         let total = with_orders_before(cell + 2u * views, light_on_ground());
