@@ -70,27 +70,31 @@ struct Detail {
     suns: u32,
     heights: u32,
     view_cosines: u32,
-    /// Nodes on either side of the horizon, and azimuths on one side of the sun.
-    polar: u32,
-    azimuths: u32,
-    steps: u32,
+    /// Nodes on either side of the horizon and azimuths on one side of the sun, and steps along each ray: for the first
+    /// order, and for the later ones, which are smoother.
+    first: [u32; 2],
+    first_steps: u32,
+    later: [u32; 2],
+    later_steps: u32,
 }
 
 const PREVIEW: Detail = Detail {
     suns: 24,
     heights: 12,
     view_cosines: 8,
-    polar: 6,
-    azimuths: 6,
-    steps: 10,
+    first: [6, 6],
+    first_steps: 10,
+    later: [6, 4],
+    later_steps: 6,
 };
 const FINAL: Detail = Detail {
     suns: 48,
     heights: 24,
     view_cosines: 12,
-    polar: 8,
-    azimuths: 8,
-    steps: 24,
+    first: [8, 8],
+    first_steps: 24,
+    later: [6, 6],
+    later_steps: 12,
 };
 
 struct Kernels {
@@ -101,18 +105,18 @@ struct Kernels {
 
 impl Kernels {
     fn new(gpu: &Gpu, detail: Detail) -> Self {
-        let variant = |first: f64| {
+        let variant = |first: f64, [polar, azimuths]: [u32; 2]| {
             let constants = [
                 ("FIRST", first),
-                ("POLAR", f64::from(detail.polar)),
-                ("AZIMUTHS", f64::from(detail.azimuths)),
+                ("POLAR", f64::from(polar)),
+                ("AZIMUTHS", f64::from(azimuths)),
             ];
             Kernel::variant(gpu, &shader::MULTI_SCATTERING, &constants)
         };
         Self {
             detail,
-            first: variant(1.0),
-            later: variant(0.0),
+            first: variant(1.0, detail.first),
+            later: variant(0.0, detail.later),
         }
     }
 }
@@ -192,7 +196,8 @@ fn follow(
     let detail = kernels.detail;
     let rows = detail.heights + if wanted.haze { HAZE_ROWS } else { 0 };
     let views = detail.view_cosines * VIEW_AZIMUTHS;
-    let [nodes, twice_scattered] = lists(gpu, detail.polar, asymmetry);
+    let [first_nodes, twice_scattered] = lists(gpu, detail.first[0], asymmetry);
+    let [later_nodes, _] = lists(gpu, detail.later[0], asymmetry);
     let air = air.upload(gpu, "air");
     let cells = 2 * u64::from((views + 1) * detail.suns * rows);
     let sums = gpu.buffer("sums of the orders", 16 * cells, wgpu::BufferUsages::STORAGE);
@@ -207,9 +212,18 @@ fn follow(
     for index in 1..=wanted.orders {
         let order = OrderUniform {
             last: u32::from(index == wanted.orders),
-            steps: detail.steps,
+            steps: if index == 1 {
+                detail.first_steps
+            } else {
+                detail.later_steps
+            },
         };
         let order = Part::new(&order).upload(gpu, "order");
+        let (kernel, nodes) = if index == 1 {
+            (&kernels.first, &first_nodes)
+        } else {
+            (&kernels.later, &later_nodes)
+        };
         let binds = [
             Bind::Buffer(&air),
             Bind::Buffer(&order),
@@ -220,10 +234,9 @@ fn follow(
             Bind::Table(&after.0),
             Bind::Table(&after.1),
             Bind::Buffer(&sums),
-            Bind::Buffer(&nodes),
+            Bind::Buffer(nodes),
             Bind::Buffer(&twice_scattered),
         ];
-        let kernel = if index == 1 { &kernels.first } else { &kernels.later };
         recorder.dispatch_groups(kernel, &binds, [detail.suns, rows, 1]);
         std::mem::swap(&mut before, &mut after);
     }
