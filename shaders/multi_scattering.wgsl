@@ -18,7 +18,7 @@ import package::lib::geometry::{PI, cosine_after, distance_to_sphere, distance_t
 import package::lib::phase::{rayleigh_phase, cornette_shanks_phase};
 import package::lib::scattering::{AirRay, March, scatter_along};
 import package::lib::source::VIEW_AZIMUTHS;
-import package::lib::tables::{multi_scattering_point, sun_cosine_point, sun_cosine_unit, unit_to_coordinate};
+import package::lib::tables::{light_from_table, light_to_table, multi_scattering_point, sun_cosine_point, sun_cosine_unit, unit_to_coordinate};
 import package::lib::transmittance::transmittance_to_space;
 
 // True for the light that the sun sends. A variant of its own: neither has to pay for the other's work, as a software
@@ -96,7 +96,7 @@ fn look(h: f32, mu_s: f32, index: u32) -> Incoming {
     if ground {
         let mu_s_ground = cosine_after(air.radius_m, h, 0.0, mu_s, nu, length_m);
         let x = unit_to_coordinate(sun_cosine_unit(mu_s_ground), textureDimensions(irradiance_before).x);
-        var lit = textureSampleLevel(irradiance_before, linear_clamp, vec2f(x, 0.5), 0.0).rgb;
+        var lit = light_from_table(textureSampleLevel(irradiance_before, linear_clamp, vec2f(x, 0.5), 0.0).rgb);
         if FIRST {
             lit = max(mu_s_ground, 0.0) * transmittance_to_space(air, transmittance_table, linear_clamp, 0.0, mu_s_ground);
         }
@@ -248,12 +248,13 @@ fn multi_scattering(@builtin(workgroup_id) texel: vec3u, @builtin(local_invocati
         let index = thread + k * THREADS;
         if index < views {
             let found = source_towards(gathered[k], view[k], sun, c);
-            textureStore(source, texel.xy, index, vec4f(with_orders_before(cell + 2u * index, found), 0.0));
+            let total = with_orders_before(cell + 2u * index, found);
+            textureStore(source, texel.xy, index, vec4f(light_to_table(total), 0.0));
         }
     }
     if texel.y == 0u && thread == THREADS - 1u {
         let total = with_orders_before(cell + 2u * views, light_on_ground());
-        textureStore(irradiance, vec2u(texel.x, 0u), vec4f(total, 0.0));
+        textureStore(irradiance, vec2u(texel.x, 0u), vec4f(light_to_table(total), 0.0));
     }
 }
 

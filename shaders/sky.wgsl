@@ -6,7 +6,7 @@ import package::lib::geometry::{PI, angle_between, distance_to_sphere, edge_zeni
 import package::lib::light::{View, disc_radiance, ground_radiance, scattered_radiance};
 import package::lib::moon::{Moon, corona, moon_radiance, place_on_moon};
 import package::lib::scattering::{March, Scattered, scatter_along};
-import package::lib::tables::{SkyViewRay, sky_view_coordinate, least_zenith_angle};
+import package::lib::tables::{SkyViewRay, light_from_table, sky_view_coordinate, least_zenith_angle};
 import package::lib::view_ray::{Observer, enter_air};
 
 // 0: light in the air from the sky-view table; 1: integrated along each pixel's ray, 2: with the optical depth to the
@@ -63,7 +63,8 @@ fn light_in_table(table: texture_2d_array<f32>, ray: SkyViewRay) -> Scattered {
     let rayleigh = textureSampleLevel(table, linear_clamp, at, 0, 0.0);
     let mie = textureSampleLevel(table, linear_clamp, at, 1, 0.0);
     let multiple = textureSampleLevel(table, linear_clamp, at, 2, 0.0);
-    return Scattered(rayleigh.rgb, mie.rgb, multiple.rgb, vec3f(rayleigh.a, mie.a, multiple.a));
+    let depth = vec3f(rayleigh.a, mie.a, multiple.a);
+    return Scattered(light_from_table(rayleigh.rgb), light_from_table(mie.rgb), light_from_table(multiple.rgb), depth);
 }
 
 // Places along each side of a pixel at which the disc is looked at.

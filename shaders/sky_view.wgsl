@@ -4,7 +4,7 @@ import package::lib::air::Air;
 import package::lib::geometry::distance_to_top;
 import package::lib::scattering::{AirRay, March, Scattered, scatter_along};
 import package::lib::view_ray::{Observer, enter_air};
-import package::lib::tables::sky_view_ray;
+import package::lib::tables::{light_to_table, sky_view_ray};
 
 // False for the first order alone.
 override MULTIPLE: bool = true;
@@ -31,7 +31,7 @@ fn sky_view(@builtin(global_invocation_id) id: vec3u) {
     if entry.length_m > 0.0 {
         light = scatter_along(air, entry, transmittance_table, source_table, linear_clamp, March(true, MULTIPLE, false, observer.steps, 0u));
     }
-    textureStore(table, id.xy, 0, vec4f(light.rayleigh, light.optical_depth.r));
-    textureStore(table, id.xy, 1, vec4f(light.mie, light.optical_depth.g));
-    textureStore(table, id.xy, 2, vec4f(light.multiple, light.optical_depth.b));
+    textureStore(table, id.xy, 0, vec4f(light_to_table(light.rayleigh), light.optical_depth.r));
+    textureStore(table, id.xy, 1, vec4f(light_to_table(light.mie), light.optical_depth.g));
+    textureStore(table, id.xy, 2, vec4f(light_to_table(light.multiple), light.optical_depth.b));
 }

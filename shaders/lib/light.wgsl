@@ -3,7 +3,7 @@ import package::lib::air::Air;
 import package::lib::geometry::{PI, angle_between, cosine_after};
 import package::lib::phase::{rayleigh_phase, cornette_shanks_phase};
 import package::lib::scattering::Scattered;
-import package::lib::tables::{sun_cosine_unit, unit_to_coordinate};
+import package::lib::tables::{light_from_table, sun_cosine_unit, unit_to_coordinate};
 import package::lib::transmittance::transmittance_to_space;
 
 struct View {
@@ -61,7 +61,7 @@ fn ground_radiance(
 ) -> vec3f {
     let mu_s = cosine_after(air.radius_m, view.altitude_m, 0.0, view.mu_s, nu, distance_m);
     let x = unit_to_coordinate(sun_cosine_unit(mu_s), textureDimensions(irradiance_table).x);
-    let sky = textureSampleLevel(irradiance_table, linear_clamp, vec2f(x, 0.5), 0.0).rgb;
+    let sky = light_from_table(textureSampleLevel(irradiance_table, linear_clamp, vec2f(x, 0.5), 0.0).rgb);
     let sun = max(mu_s, 0.0) * transmittance_to_space(air, transmittance_table, linear_clamp, 0.0, mu_s);
     return view.sun_irradiance * air.ground_albedo / PI * (sun + sky);
 }

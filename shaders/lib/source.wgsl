@@ -4,7 +4,7 @@
 // smooth in all four, since each is an integral over the sphere; the sky is even about the sun's plane.
 import package::lib::air::Air;
 import package::lib::geometry::PI;
-import package::lib::tables::{HeightCosine, multi_scattering_unit, sun_cosine_point, sun_cosine_unit, unit_to_coordinate};
+import package::lib::tables::{HeightCosine, light_from_table, multi_scattering_unit, sun_cosine_point, sun_cosine_unit, unit_to_coordinate};
 
 // Azimuths of view, evenly from 0 to π.
 const VIEW_AZIMUTHS = 8u;
@@ -41,15 +41,12 @@ fn source_function(
     let away = cos(f32(column + 1u) * spacing);
     let share = vec2f((mu - lower) / (upper - lower), (cos_azimuth - towards) / (away - towards));
     let layer = i32(row * VIEW_AZIMUTHS + column);
-    let below = mix(
-        textureSampleLevel(table, linear_clamp, at, layer, 0.0).rgb,
-        textureSampleLevel(table, linear_clamp, at, layer + 1, 0.0).rgb,
-        share.y,
-    );
-    let above = mix(
-        textureSampleLevel(table, linear_clamp, at, layer + i32(VIEW_AZIMUTHS), 0.0).rgb,
-        textureSampleLevel(table, linear_clamp, at, layer + i32(VIEW_AZIMUTHS) + 1, 0.0).rgb,
-        share.y,
-    );
-    return max(mix(below, above, share.x), vec3f(0.0));
+    let row_below = mix(at_layer(table, linear_clamp, at, layer), at_layer(table, linear_clamp, at, layer + 1), share.y);
+    let next = layer + i32(VIEW_AZIMUTHS);
+    let row_above = mix(at_layer(table, linear_clamp, at, next), at_layer(table, linear_clamp, at, next + 1), share.y);
+    return max(mix(row_below, row_above, share.x), vec3f(0.0));
+}
+
+fn at_layer(table: texture_2d_array<f32>, linear_clamp: sampler, at: vec2f, layer: i32) -> vec3f {
+    return light_from_table(textureSampleLevel(table, linear_clamp, at, layer, 0.0).rgb);
 }

@@ -11,6 +11,16 @@ fn unit_to_coordinate(x: f32, size: u32) -> f32 {
     return (0.5 + clamp(x, 0.0, 1.0) * f32(size - 1u)) / f32(size);
 }
 
+// Light is stored as its fourth root. Through twilight it falls tenfold in a few texels; between two of them, linear
+// interpolation of f = e^{kx} is off by (kΔ)²/8, that of its root by a quarter of it. Half floats reach deeper, too.
+fn light_to_table(light: vec3f) -> vec3f {
+    return sqrt(sqrt(max(light, vec3f(0.0))));
+}
+
+fn light_from_table(stored: vec3f) -> vec3f {
+    return stored * stored * stored * stored;
+}
+
 // Transmittance (Bruneton 2017): x from the distance d to the top, between that of the zenith and that of the
 // horizon; y = rho/H with rho and H the horizon distances from the point and from the top.
 struct HeightCosine {
