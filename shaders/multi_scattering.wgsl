@@ -18,7 +18,10 @@ import package::lib::geometry::{PI, cosine_after, distance_to_sphere, distance_t
 import package::lib::phase::{rayleigh_phase, cornette_shanks_phase};
 import package::lib::scattering::{AirRay, March, scatter_along};
 import package::lib::source::VIEW_AZIMUTHS;
-import package::lib::tables::{light_from_table, light_to_table, multi_scattering_point, sun_cosine_point, sun_cosine_unit, unit_to_coordinate};
+import package::lib::tables::{
+    light_from_table, light_to_table, multi_scattering_point, sun_cosine_unit, unit_to_coordinate,
+    view_zenith_angle,
+};
 import package::lib::transmittance::transmittance_to_space;
 
 // True for the light that the sun sends. A variant of its own: neither has to pay for the other's work, as a software
@@ -205,11 +208,11 @@ fn light_on_ground() -> vec3f {
     return light;
 }
 
-fn view_direction(view: u32, view_cosines: u32) -> vec3f {
-    let mu = sun_cosine_point(f32(view / VIEW_AZIMUTHS) / f32(view_cosines - 1u));
+fn view_direction(view: u32, view_angles: u32) -> vec3f {
+    let zenith_angle = view_zenith_angle(f32(view / VIEW_AZIMUTHS) / f32(view_angles - 1u));
     let azimuth = PI * f32(view % VIEW_AZIMUTHS) / f32(VIEW_AZIMUTHS - 1u);
-    let sine = sqrt(max(1.0 - mu * mu, 0.0));
-    return vec3f(sine * cos(azimuth), sine * sin(azimuth), mu);
+    let sine = sin(zenith_angle);
+    return vec3f(sine * cos(azimuth), sine * sin(azimuth), cos(zenith_angle));
 }
 
 @compute @workgroup_size(32)
@@ -227,12 +230,12 @@ fn multi_scattering(@builtin(workgroup_id) texel: vec3u, @builtin(local_invocati
         workgroupBarrier();
     }
     let views = textureNumLayers(source);
-    let view_cosines = views / VIEW_AZIMUTHS;
+    let view_angles = views / VIEW_AZIMUTHS;
     // Each thread gathers for VIEWS directions of view at once: a direction is fetched once for all of them.
     var view: array<vec3f, VIEWS>;
     var gathered: array<Gathered, VIEWS>;
     for (var k = 0u; k < VIEWS; k++) {
-        view[k] = view_direction(min(thread + k * THREADS, views - 1u), view_cosines);
+        view[k] = view_direction(min(thread + k * THREADS, views - 1u), view_angles);
         gathered[k] = Gathered();
     }
     for (var i = 0u; i < 2u * POLAR * AZIMUTHS; i++) {

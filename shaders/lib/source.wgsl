@@ -4,7 +4,9 @@
 // smooth in all four, since each is an integral over the sphere; the sky is even about the sun's plane.
 import package::lib::air::Air;
 import package::lib::geometry::PI;
-import package::lib::tables::{HeightCosine, light_from_table, multi_scattering_unit, sun_cosine_point, sun_cosine_unit, unit_to_coordinate};
+import package::lib::tables::{
+    HeightCosine, light_from_table, multi_scattering_unit, unit_to_coordinate, view_unit, view_zenith_angle,
+};
 
 // Azimuths of view, evenly from 0 to π.
 const VIEW_AZIMUTHS = 8u;
@@ -28,12 +30,12 @@ fn source_function(
     let size = textureDimensions(table);
     let unit = multi_scattering_unit(air, HeightCosine(altitude_m, mu_s), in_haze, size.y);
     let at = vec2f(unit_to_coordinate(unit.x, size.x), unit.y);
-    // Between two cosines of view, linear in the cosine; between two azimuths, linear in the azimuth's cosine, which is
-    // exact for the first harmonic.
-    let view_cosines = textureNumLayers(table) / VIEW_AZIMUTHS;
-    let row = min(u32(sun_cosine_unit(mu) * f32(view_cosines - 1u)), view_cosines - 2u);
-    let lower = sun_cosine_point(f32(row) / f32(view_cosines - 1u));
-    let upper = sun_cosine_point(f32(row + 1u) / f32(view_cosines - 1u));
+    // Between two of the zenith's angles and between two azimuths, linear in the cosine, which is exact for the first
+    // harmonic.
+    let view_angles = textureNumLayers(table) / VIEW_AZIMUTHS;
+    let row = min(u32(view_unit(acos(clamp(mu, -1.0, 1.0))) * f32(view_angles - 1u)), view_angles - 2u);
+    let lower = cos(view_zenith_angle(f32(row) / f32(view_angles - 1u)));
+    let upper = cos(view_zenith_angle(f32(row + 1u) / f32(view_angles - 1u)));
     let cos_azimuth = cosine_of_azimuth(mu, mu_s, nu);
     let spacing = PI / f32(VIEW_AZIMUTHS - 1u);
     let column = min(u32(acos(cos_azimuth) / spacing), VIEW_AZIMUTHS - 2u);

@@ -64,6 +64,21 @@ fn sun_cosine_point(x: f32) -> f32 {
     return s * abs(s);
 }
 
+// Directions of view: the zenith angle from π to 0, finer about the horizon. The elevation is π/2 (a s + (1-a) s²) of
+// s = 2x - 1, with the sign of s.
+const VIEW_EVENNESS = 0.3;
+
+fn view_zenith_angle(x: f32) -> f32 {
+    let s = 2.0 * x - 1.0;
+    return 0.5 * PI * (1.0 - s * (VIEW_EVENNESS + (1.0 - VIEW_EVENNESS) * abs(s)));
+}
+
+fn view_unit(zenith_angle: f32) -> f32 {
+    let elevation = 1.0 - zenith_angle / (0.5 * PI);
+    let root = sqrt(VIEW_EVENNESS * VIEW_EVENNESS + 4.0 * (1.0 - VIEW_EVENNESS) * abs(elevation));
+    return 0.5 + 0.5 * sign(elevation) * (root - VIEW_EVENNESS) / (2.0 * (1.0 - VIEW_EVENNESS));
+}
+
 // x as a unit; y as a texture's coordinate.
 fn multi_scattering_unit(air: Air, p: HeightCosine, in_haze: bool, rows: u32) -> vec2f {
     let x = sun_cosine_unit(p.mu);

@@ -69,7 +69,7 @@ impl Wanted {
 struct Detail {
     suns: u32,
     heights: u32,
-    view_cosines: u32,
+    view_angles: u32,
     /// Nodes on either side of the horizon and azimuths on one side of the sun, and steps along each ray: for the first
     /// order, and for the later ones, which are smoother.
     first: [u32; 2],
@@ -81,7 +81,7 @@ struct Detail {
 const PREVIEW: Detail = Detail {
     suns: 24,
     heights: 12,
-    view_cosines: 8,
+    view_angles: 8,
     first: [6, 6],
     first_steps: 10,
     later: [6, 4],
@@ -90,7 +90,7 @@ const PREVIEW: Detail = Detail {
 const FINAL: Detail = Detail {
     suns: 48,
     heights: 24,
-    view_cosines: 12,
+    view_angles: 12,
     first: [8, 8],
     first_steps: 24,
     later: [6, 6],
@@ -195,7 +195,7 @@ fn follow(
     let gpu = recorder.gpu;
     let detail = kernels.detail;
     let rows = detail.heights + if wanted.haze { HAZE_ROWS } else { 0 };
-    let views = detail.view_cosines * VIEW_AZIMUTHS;
+    let views = detail.view_angles * VIEW_AZIMUTHS;
     let [first_nodes, twice_scattered] = lists(gpu, detail.first[0], asymmetry);
     let [later_nodes, _] = lists(gpu, detail.later[0], asymmetry);
     let air = air.upload(gpu, "air");
