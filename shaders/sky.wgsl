@@ -165,7 +165,8 @@ fn radiance_towards(direction: vec3f, disc: vec3f) -> vec3f {
         let angle = min(zenith_angle, horizon);
         var depth = vec3f(0.0);
         if angle >= least_zenith_angle(air.radius_m, air.top_m, view.altitude_m) {
-            let light = light_in_air(SkyViewRay(azimuth, angle, false, 0.0), mu, nu);
+            // Beyond the horizon the ray is turned up to it.
+            let light = light_in_air(SkyViewRay(azimuth, angle, false, 0.0), select(mu, cos(angle), zenith_angle > angle), nu);
             depth = light.optical_depth;
             sum += above * scattered_radiance(air, view, light, nu);
             if MOONLIGHT {
@@ -179,7 +180,7 @@ fn radiance_towards(direction: vec3f, disc: vec3f) -> vec3f {
         let met_m = distance_to_sphere(air.radius_m, view.altitude_m, mu);
         let edge_m = sqrt(horizon_distance_squared(air.radius_m, view.altitude_m));
         let distance_m = select(met_m, edge_m, met_m < 0.0);
-        let light = light_in_air(SkyViewRay(azimuth, zenith_angle, true, distance_m), mu, nu);
+        let light = light_in_air(SkyViewRay(azimuth, zenith_angle, true, distance_m), select(mu, cos(horizon), met_m < 0.0), nu);
         let left = exp(-light.optical_depth);
         var ground = ground_radiance(air, view, nu, distance_m, transmittance_table, irradiance_table, linear_clamp)
             + air.ground_albedo / PI * glow.ground_irradiance;

@@ -111,7 +111,8 @@ fn multi_scattering_point(air: Air, texel: vec2u, size: vec2u) -> MultiScatterin
 }
 
 // Sky view, seen from one altitude. x is the azimuth from the sun over π: the sky is even in it. The lower half of the
-// rows holds rays to the ground by the distance to it, the upper half rays to space by the square root of the angle
+// rows holds rays to the ground by the root of the distance beyond that to the nadir, which is even in angle about the
+// nadir, the upper half rays to space by the square root of the angle
 // over the horizon; no row belongs to both, so nothing bleeds over the horizon. Seen from outside, the upper half
 // spans only the air over the limb.
 struct SkyViewRay {
@@ -140,7 +141,7 @@ fn sky_view_ray(radius_m: f32, top_m: f32, altitude_m: f32, texel: vec2u, size: 
     }
     let y = texel_to_unit(texel.y, half_rows);
     let squared = horizon_distance_squared(radius_m, altitude_m);
-    let d = altitude_m + y * (sqrt(squared) - altitude_m);
+    let d = altitude_m + y * y * (sqrt(squared) - altitude_m);
     // From R² = r² + d² + 2 r d mu follows 1 + mu = (d - h)(2R + h - d) / (2 r d). The half angle of the nadir's side by
     // its tangent: drivers' acos may be off by 1e-4, which from far away is kilometres of ground.
     var nadir_angle = 0.0;
@@ -156,7 +157,7 @@ fn sky_view_coordinate(radius_m: f32, top_m: f32, altitude_m: f32, ray: SkyViewR
     let x = unit_to_coordinate(ray.azimuth / PI, size.x);
     if ray.ground {
         let farthest = sqrt(horizon_distance_squared(radius_m, altitude_m));
-        let y = (ray.distance_m - altitude_m) / max(farthest - altitude_m, 1e-3);
+        let y = sqrt(max(ray.distance_m - altitude_m, 0.0) / max(farthest - altitude_m, 1e-3));
         return vec2f(x, 0.5 * unit_to_coordinate(y, half_rows));
     }
     let horizon = edge_zenith_angle(radius_m, altitude_m);

@@ -177,14 +177,21 @@ fn errors(renderer: &Renderer, name: &str) -> Vec<Errors> {
                 for (row, radiance) in alike.iter().zip(&answer.radiance_w_m2_sr) {
                     let expected = triple(&row["totals"][index]["mean"]);
                     if std::env::var("ROWS").is_ok() {
-                        println!("{name} {altitude_m} sun {sun_zenith_deg} a {albedo} view {} {} {:+.4?}", row["view_zenith_deg"], row["view_azimuth_deg"], [0,1,2].map(|c| radiance[c]/expected[c]-1.0));
+                        println!(
+                            "{name} {altitude_m} sun {sun_zenith_deg} a {albedo} view {} {} {:+.4?}",
+                            row["view_zenith_deg"],
+                            row["view_azimuth_deg"],
+                            [0, 1, 2].map(|c| radiance[c] / expected[c] - 1.0)
+                        );
                     }
                     for c in 0..3 {
                         squares[c] += (radiance[c] / expected[c] - 1.0).powi(2);
                     }
                 }
                 let rmse = squares.map(|s: f64| (s / alike.len() as f64).sqrt());
-                println!("{name}: from {altitude_m} m, sun at {sun_zenith_deg}°, albedo {albedo}: {rmse:.4?}");
+                println!(
+                    "{name}: from {altitude_m} m, sun at {sun_zenith_deg}°, albedo {albedo}: {rmse:.4?}"
+                );
                 found.push(Errors {
                     altitude_m,
                     sun_zenith_deg,
@@ -200,8 +207,21 @@ fn errors(renderer: &Renderer, name: &str) -> Vec<Errors> {
 #[test]
 fn all_orders_match_our_own_monte_carlo() {
     let renderer = Renderer::start(RendererSettings::default()).unwrap();
-    for name in ["reference_air_thesis", "reference_air_earth", "reference_air_above", "reference_air_turbid", "reference_haze"] {
-        if !std::path::Path::new(&format!("{}/../../tests/oracles/{name}.json", env!("CARGO_MANIFEST_DIR"))).exists() { continue; }
+    for name in [
+        "reference_air_thesis",
+        "reference_air_earth",
+        "reference_air_above",
+        "reference_air_turbid",
+        "reference_haze",
+    ] {
+        if !std::path::Path::new(&format!(
+            "{}/../../tests/oracles/{name}.json",
+            env!("CARGO_MANIFEST_DIR")
+        ))
+        .exists()
+        {
+            continue;
+        }
         errors(&renderer, name);
     }
 }

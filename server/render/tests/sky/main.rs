@@ -13,6 +13,7 @@ mod display;
 mod frames;
 mod horizon;
 mod lens;
+mod methods;
 mod moon;
 mod night;
 mod orders;
