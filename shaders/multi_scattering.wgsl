@@ -27,6 +27,7 @@ import package::lib::transmittance::transmittance_to_space;
 // True for the light that the sun sends. A variant of its own: neither has to pay for the other's work, as a software
 // device runs both sides of every branch.
 override FIRST: bool = true;
+override HAZE: bool = true;
 // Directions: Gauss-Legendre nodes x on either side of the horizon, bent towards it by mu = mu_h ± Δ x², times azimuths
 // on one side of the sun (the other side is its mirror image).
 override POLAR: u32 = 6u;
@@ -88,7 +89,7 @@ fn look(h: f32, mu_s: f32, index: u32) -> Incoming {
     let ground = to_ground >= 0.0;
     let length_m = select(distance_to_top(air.radius_m, air.top_m, h, mu), to_ground, ground);
     let ray = AirRay(h, mu, mu_s, nu, length_m);
-    let march = March(FIRST, !FIRST, false, order.steps, 0u);
+    let march = March(FIRST, !FIRST, HAZE, false, order.steps, 1u, 0u);
     let scattered = scatter_along(air, ray, transmittance_table, source_before, linear_clamp, march);
     var light = scattered.multiple;
     var mie_weight = 0.0;

@@ -9,6 +9,7 @@ import package::lib::view_ray::{Observer, enter_air};
 
 // False for the first order alone.
 override MULTIPLE: bool = true;
+override HAZE: bool = true;
 // True where the optical depth to the sun is integrated in every step.
 override NESTED: bool = false;
 
@@ -69,7 +70,7 @@ fn probe(@builtin(global_invocation_id) id: vec3u) {
     let entry = enter_air(air, observer, mu, nu, ground, ground_m);
     var light: Scattered;
     if entry.length_m > 0.0 {
-        light = scatter_along(air, entry, transmittance_table, source_table, linear_clamp, March(true, MULTIPLE, NESTED, observer.steps, observer.sun_steps));
+        light = scatter_along(air, entry, transmittance_table, source_table, linear_clamp, March(true, MULTIPLE, HAZE, NESTED, observer.steps, 4u, observer.sun_steps));
     }
     let transmittance = exp(-light.optical_depth);
     var between = scattered_radiance(air, view, light, nu)
@@ -83,7 +84,7 @@ fn probe(@builtin(global_invocation_id) id: vec3u) {
         let nu_moon = clamp(dot(direction, moon_view.sun), -1.0, 1.0);
         let moonlit = enter_air(air, moon_observer, mu, nu_moon, ground, ground_m);
         if moonlit.length_m > 0.0 {
-            let march = March(true, MULTIPLE, NESTED, observer.steps, observer.sun_steps);
+            let march = March(true, MULTIPLE, HAZE, NESTED, observer.steps, 4u, observer.sun_steps);
             let scattered = scatter_along(air, moonlit, transmittance_table, source_table, linear_clamp, march);
             between += scattered_radiance(air, moon_view, scattered, nu_moon);
         }

@@ -14,6 +14,7 @@ import package::lib::view_ray::{Observer, enter_air};
 override METHOD: u32 = 0u;
 // False for the first order alone.
 override MULTIPLE: bool = true;
+override HAZE: bool = true;
 
 // Further variants, so that a scene pays for what it has: a moon whose disc is shown or hides the sun's, and one that
 // lights air and ground as well.
@@ -50,7 +51,7 @@ fn light_in_air(ray: SkyViewRay, mu: f32, nu: f32) -> Scattered {
         var light: Scattered;
         let entry = enter_air(air, observer, mu, nu, ray.ground, ray.distance_m);
         if entry.length_m > 0.0 {
-            let march = March(true, MULTIPLE, METHOD == 2u, observer.steps, observer.sun_steps);
+            let march = March(true, MULTIPLE, HAZE, METHOD == 2u, observer.steps, 4u, observer.sun_steps);
             light = scatter_along(air, entry, transmittance_table, source_table, linear_clamp, march);
         }
         return light;

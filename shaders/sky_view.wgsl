@@ -8,6 +8,7 @@ import package::lib::tables::{light_to_table, sky_view_ray};
 
 // False for the first order alone.
 override MULTIPLE: bool = true;
+override HAZE: bool = true;
 
 @group(0) @binding(0) var<uniform> air: Air;
 @group(0) @binding(1) var<uniform> observer: Observer;
@@ -29,7 +30,7 @@ fn sky_view(@builtin(global_invocation_id) id: vec3u) {
     let entry = enter_air(air, observer, mu, clamp(nu, -1.0, 1.0), ray.ground, ray.distance_m);
     var light: Scattered;
     if entry.length_m > 0.0 {
-        light = scatter_along(air, entry, transmittance_table, source_table, linear_clamp, March(true, MULTIPLE, false, observer.steps, 0u));
+        light = scatter_along(air, entry, transmittance_table, source_table, linear_clamp, March(true, MULTIPLE, HAZE, false, observer.steps, 2u, 0u));
     }
     textureStore(table, id.xy, 0, vec4f(light_to_table(light.rayleigh), light.optical_depth.r));
     textureStore(table, id.xy, 1, vec4f(light_to_table(light.mie), light.optical_depth.g));

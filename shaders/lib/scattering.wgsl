@@ -2,7 +2,7 @@
 import package::lib::air::{Air, coefficients_at};
 import package::lib::geometry::{altitude_after, cosine_after, shadow_stretch, shell_stretch};
 import package::lib::source::source_function;
-import package::lib::transmittance::{haze_optical_depth, integrate_optical_depth, optical_depth_to_top};
+import package::lib::transmittance::{haze_optical_depth, integrate_optical_depth, tabled_optical_depth};
 
 // A stretch of a ray inside the air.
 struct AirRay {
@@ -19,9 +19,13 @@ struct March {
     // The first order; the others.
     with_sun: bool,
     with_source: bool,
+    // There is haze.
+    with_haze: bool,
     // The optical depth to the sun is integrated anew at every step, not read from the table.
     nested: bool,
     steps: u32,
+    // Steps that share one value of the source function, which is far smoother than the air's density: 1, 2 or 4.
+    group: u32,
     // Of the nested integral.
     sun_steps: u32,
 }
@@ -54,14 +58,15 @@ fn scatter_along(
     let dark = shadow_stretch(air.radius_m, ray.altitude_m, ray.mu, ray.mu_s, ray.nu, ray.length_m);
     let has_dark = dark.x < dark.y;
     let hazy = shell_stretch(air.radius_m + air.haze_top_m, ray.altitude_m - air.haze_top_m, ray.mu, ray.length_m);
-    let has_haze = air.haze_extinction_per_m > 0.0 && hazy.x < hazy.y;
+    let has_haze = march.with_haze && hazy.x < hazy.y;
     let end = ray.length_m;
     var cuts = sorted(lowest, select(vec2f(end), dark, has_dark), select(vec2f(end), hazy, has_haze), end);
     var pieces = 0u;
     for (var i = 0u; i < PIECES; i++) {
         pieces += u32(cuts[i + 1u] > cuts[i]);
     }
-    let piece_steps = max(march.steps / max(pieces, 1u), 4u);
+    let groups = max(march.steps / (max(pieces, 1u) * march.group), LEAST_STEPS / march.group);
+    let piece_steps = groups * march.group;
     for (var i = 0u; i < PIECES; i++) {
         let from_m = cuts[i];
         let length_m = cuts[i + 1u] - from_m;
@@ -73,41 +78,55 @@ fn scatter_along(
         let in_haze = has_haze && middle > hazy.x && middle < hazy.y;
         let rising = middle > lowest;
         let haze_depth = min(select(0.0, air.haze_extinction_per_m * length_m, in_haze), DEEPEST_HAZE);
-        for (var k = 0u; k < piece_steps; k++) {
-            let near = piece_share(f32(k) / f32(piece_steps), haze_depth, rising);
-            let far = piece_share(f32(k + 1u) / f32(piece_steps), haze_depth, rising);
-            let at = piece_share((f32(k) + 0.5) / f32(piece_steps), haze_depth, rising);
-            let dt = (far - near) * length_m;
-            let t = from_m + at * length_m;
-            let h = altitude_after(air.radius_m, ray.altitude_m, ray.mu, t);
-            let mu_s = cosine_after(air.radius_m, ray.altitude_m, h, ray.mu_s, ray.nu, t);
-            let c = coefficients_at(air, h, in_haze);
-            let tau = c.extinction_per_m * dt;
-            // (1 - e^{-τ})/τ, by its series where that cancels.
-            let share = select((1.0 - exp(-tau)) / max(tau, vec3f(1e-6)), 1.0 - 0.5 * tau, tau < vec3f(1e-3));
-            let weight = exp(-sum.optical_depth) * share * dt;
-            if march.with_sun && lit {
-                var depth: vec3f;
-                if march.nested {
-                    depth = integrate_optical_depth(air, h, mu_s, march.sun_steps) + haze_optical_depth(air, h, mu_s);
-                } else {
-                    depth = optical_depth_to_top(air, transmittance_table, linear_clamp, h, mu_s);
-                }
-                sum.rayleigh += weight * c.rayleigh_per_m * exp(-depth);
-                sum.mie += weight * c.mie_per_m * exp(-depth);
-            }
+        var near = 0.0;
+        for (var g = 0u; g < groups; g++) {
+            var source = vec3f(0.0);
             if march.with_source {
+                let t = from_m + length_m * share_before(march.with_haze, (f32(g) + 0.5) / f32(groups), haze_depth, rising);
+                let h = altitude_after(air.radius_m, ray.altitude_m, ray.mu, t);
+                let mu_s = cosine_after(air.radius_m, ray.altitude_m, h, ray.mu_s, ray.nu, t);
                 let mu = cosine_after(air.radius_m, ray.altitude_m, h, ray.mu, 1.0, t);
-                let source = source_function(air, source_table, linear_clamp, h, in_haze, mu, mu_s, ray.nu);
-                sum.multiple += weight * (c.rayleigh_per_m + c.mie_per_m) * source;
+                source = source_function(air, source_table, linear_clamp, h, in_haze, mu, mu_s, ray.nu);
             }
-            sum.optical_depth += tau;
+            for (var k = g * march.group; k < (g + 1u) * march.group; k++) {
+                let far = share_before(march.with_haze, f32(k + 1u) / f32(piece_steps), haze_depth, rising);
+                let at = share_before(march.with_haze, (f32(k) + 0.5) / f32(piece_steps), haze_depth, rising);
+                let dt = (far - near) * length_m;
+                let t = from_m + at * length_m;
+                let h = altitude_after(air.radius_m, ray.altitude_m, ray.mu, t);
+                let c = coefficients_at(air, h, in_haze);
+                let tau = c.extinction_per_m * dt;
+                // (1 - e^{-τ})/τ, by its series where that cancels.
+                let share = select((1.0 - exp(-tau)) / max(tau, vec3f(1e-6)), 1.0 - 0.5 * tau, tau < vec3f(1e-3));
+                let weight = exp(-sum.optical_depth) * share * dt;
+                if march.with_sun && lit {
+                    let mu_s = cosine_after(air.radius_m, ray.altitude_m, h, ray.mu_s, ray.nu, t);
+                    var depth: vec3f;
+                    if march.nested {
+                        depth = integrate_optical_depth(air, h, mu_s, march.sun_steps);
+                    } else {
+                        depth = tabled_optical_depth(air, transmittance_table, linear_clamp, h, mu_s);
+                    }
+                    if march.with_haze {
+                        depth += haze_optical_depth(air, h, mu_s);
+                    }
+                    sum.rayleigh += weight * c.rayleigh_per_m * exp(-depth);
+                    sum.mie += weight * c.mie_per_m * exp(-depth);
+                }
+                if march.with_source {
+                    sum.multiple += weight * (c.rayleigh_per_m + c.mie_per_m) * source;
+                }
+                sum.optical_depth += tau;
+                near = far;
+            }
         }
     }
     return sum;
 }
 
 const PIECES = 6u;
+// In each piece.
+const LEAST_STEPS = 4u;
 // Beyond e⁻¹² nothing of the haze is seen.
 const DEEPEST_HAZE = 12.0;
 
@@ -130,9 +149,9 @@ fn sorted(place: f32, a: vec2f, b: vec2f, end: f32) -> array<f32, 7> {
 }
 
 // Share of a piece's length that lies before the share u of its steps.
-fn piece_share(u: f32, haze_depth: f32, rising: bool) -> f32 {
+fn share_before(with_haze: bool, u: f32, haze_depth: f32, rising: bool) -> f32 {
     let squared = select(1.0 - (1.0 - u) * (1.0 - u), u * u, rising);
-    if haze_depth <= 1.0 {
+    if !with_haze || haze_depth <= 1.0 {
         return squared;
     }
     // Equal shares of 1 - e^{-haze_depth}.

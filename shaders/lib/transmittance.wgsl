@@ -43,11 +43,16 @@ fn haze_optical_depth(air: Air, altitude_m: f32, mu: f32) -> f32 {
     return air.haze_extinction_per_m * length_in_haze(air, altitude_m, mu);
 }
 
-fn optical_depth_to_top(air: Air, table: texture_2d<f32>, linear_clamp: sampler, altitude_m: f32, mu: f32) -> vec3f {
+// Without the haze.
+fn tabled_optical_depth(air: Air, table: texture_2d<f32>, linear_clamp: sampler, altitude_m: f32, mu: f32) -> vec3f {
     let unit = transmittance_unit(air.radius_m, air.top_m, HeightCosine(altitude_m, mu));
     let size = textureDimensions(table);
     let at = vec2f(unit_to_coordinate(unit.x, size.x), unit_to_coordinate(unit.y, size.y));
-    return textureSampleLevel(table, linear_clamp, at, 0.0).rgb + haze_optical_depth(air, altitude_m, mu);
+    return textureSampleLevel(table, linear_clamp, at, 0.0).rgb;
+}
+
+fn optical_depth_to_top(air: Air, table: texture_2d<f32>, linear_clamp: sampler, altitude_m: f32, mu: f32) -> vec3f {
+    return tabled_optical_depth(air, table, linear_clamp, altitude_m, mu) + haze_optical_depth(air, altitude_m, mu);
 }
 
 // Transmittance to space; zero where the ground is in the way.

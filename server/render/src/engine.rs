@@ -83,7 +83,7 @@ impl Engine {
         let passes = gpu.guarded(|| {
             Ok((
                 Transmittance::new(&gpu),
-                MultiScatteringPass::new(&gpu),
+                MultiScatteringPass::new(),
                 SkyView::new(),
                 StarsPass::new(&gpu),
                 ExposurePass::new(&gpu),

@@ -25,6 +25,7 @@ pub(crate) struct Plan {
     pub(crate) method: Method,
     /// True where orders beyond the first count.
     pub(crate) multiple: bool,
+    pub(crate) haze: bool,
     view_steps: Option<u32>,
     sun_steps: Option<u32>,
 }
@@ -35,6 +36,7 @@ impl Plan {
         Self {
             method: chosen.map_or(Method::Lut, |air| air.method),
             multiple: air.multiple > 0.0,
+            haze: air.haze_extinction_per_m > 0.0,
             view_steps: chosen.and_then(|air| air.view_steps),
             sun_steps: chosen.and_then(|air| air.sun_steps),
         }
@@ -85,6 +87,12 @@ impl Plan {
             Method::Table => view.div_ceil(4),
             Method::Nested => (view * sun).div_ceil(16),
         }
+    }
+
+    /// The constants of the shaders that follow light through the air.
+    pub(crate) fn march_constants(&self) -> [(&'static str, f64); 2] {
+        let flag = |on: bool| f64::from(u8::from(on));
+        [("MULTIPLE", flag(self.multiple)), ("HAZE", flag(self.haze))]
     }
 
     /// As the shaders number it.

@@ -3,7 +3,7 @@
 use super::Table;
 use crate::{
     gpu::Gpu,
-    kernel::{Bind, Kernel, Recorder},
+    kernel::{Bind, Recorder, Variants},
     memo::{Fingerprint, Memo},
     phase::convolved,
     quadrature::gauss_legendre,
@@ -97,41 +97,15 @@ const FINAL: Detail = Detail {
     later_steps: 12,
 };
 
-struct Kernels {
-    detail: Detail,
-    first: Kernel,
-    later: Kernel,
-}
-
-impl Kernels {
-    fn new(gpu: &Gpu, detail: Detail) -> Self {
-        let variant = |first: f64, [polar, azimuths]: [u32; 2]| {
-            let constants = [
-                ("FIRST", first),
-                ("POLAR", f64::from(polar)),
-                ("AZIMUTHS", f64::from(azimuths)),
-            ];
-            Kernel::variant(gpu, &shader::MULTI_SCATTERING, &constants)
-        };
-        Self {
-            detail,
-            first: variant(1.0, detail.first),
-            later: variant(0.0, detail.later),
-        }
-    }
-}
-
 pub(crate) struct MultiScatteringPass {
-    preview: Kernels,
-    full: Kernels,
+    kernels: Variants,
     memo: Memo<MultiScattering>,
 }
 
 impl MultiScatteringPass {
-    pub(crate) fn new(gpu: &Gpu) -> Self {
+    pub(crate) fn new() -> Self {
         Self {
-            preview: Kernels::new(gpu, PREVIEW),
-            full: Kernels::new(gpu, FINAL),
+            kernels: Variants::new(&shader::MULTI_SCATTERING),
             memo: Memo::new(8),
         }
     }
@@ -146,10 +120,7 @@ impl MultiScatteringPass {
         wanted: Wanted,
     ) -> Arc<MultiScattering> {
         let made_from = Fingerprint::of(("multi_scattering", air, transmittance.made_from, wanted));
-        let kernels = match wanted.quality {
-            Quality::Preview => &self.preview,
-            Quality::Final => &self.full,
-        };
+        let kernels = &mut self.kernels;
         self.memo.get_or(made_from, || {
             let made = |view| Table { view, made_from };
             let gpu = recorder.gpu;
@@ -186,14 +157,17 @@ pub(crate) fn lists(gpu: &Gpu, polar: u32, asymmetry: f64) -> [wgpu::Buffer; 2] 
 /// One dispatch an order.
 fn follow(
     recorder: &mut Recorder<'_>,
-    kernels: &Kernels,
+    kernels: &mut Variants,
     air: &Part,
     asymmetry: f64,
     transmittance: &Table,
     wanted: Wanted,
 ) -> (wgpu::TextureView, wgpu::TextureView) {
     let gpu = recorder.gpu;
-    let detail = kernels.detail;
+    let detail = match wanted.quality {
+        Quality::Preview => PREVIEW,
+        Quality::Final => FINAL,
+    };
     let rows = detail.heights + if wanted.haze { HAZE_ROWS } else { 0 };
     let views = detail.view_angles * VIEW_AZIMUTHS;
     let [first_nodes, twice_scattered] = lists(gpu, detail.first[0], asymmetry);
@@ -219,11 +193,19 @@ fn follow(
             },
         };
         let order = Part::new(&order).upload(gpu, "order");
-        let (kernel, nodes) = if index == 1 {
-            (&kernels.first, &first_nodes)
+        let first = index == 1;
+        let (nodes, [polar, azimuths]) = if first {
+            (&first_nodes, detail.first)
         } else {
-            (&kernels.later, &later_nodes)
+            (&later_nodes, detail.later)
         };
+        let constants = [
+            ("FIRST", f64::from(u8::from(first))),
+            ("HAZE", f64::from(u8::from(wanted.haze))),
+            ("POLAR", f64::from(polar)),
+            ("AZIMUTHS", f64::from(azimuths)),
+        ];
+        let kernel = kernels.get(gpu, &constants);
         let binds = [
             Bind::Buffer(&air),
             Bind::Buffer(&order),

@@ -121,14 +121,14 @@ impl Probe {
         let mut recorder = Recorder::new(gpu);
         let threads = u32::try_from(packed.len()).unwrap_or(u32::MAX);
         let nested = inputs.plan.method == Method::Nested;
+        let flag = |on: bool| f64::from(u8::from(on));
+        let [multiple, haze] = inputs.plan.march_constants();
         let constants = [
-            ("MULTIPLE", f64::from(u8::from(inputs.plan.multiple))),
-            ("NESTED", f64::from(u8::from(nested))),
-            ("MOON", f64::from(u8::from(of_moon.is_some()))),
-            (
-                "MOONLIGHT",
-                f64::from(u8::from(of_moon.is_some_and(|m| m.lights))),
-            ),
+            multiple,
+            haze,
+            ("NESTED", flag(nested)),
+            ("MOON", flag(of_moon.is_some())),
+            ("MOONLIGHT", flag(of_moon.is_some_and(|m| m.lights))),
         ];
         let kernel = self.kernels.get(gpu, &constants);
         recorder.dispatch(kernel, &binds, [threads, 1, 1]);

@@ -108,12 +108,15 @@ impl Sky {
             Bind::Table(&moon_sky_view.unwrap_or(inputs.source).view),
             Bind::Table(face),
         ];
-        let constants = [
+        let flag = |on: bool| f64::from(u8::from(on));
+        let mut constants = vec![
             ("METHOD", inputs.plan.method_code()),
-            ("MULTIPLE", f64::from(u8::from(inputs.plan.multiple))),
-            ("MOON", f64::from(u8::from(inputs.moon.is_some()))),
-            ("MOONLIGHT", f64::from(u8::from(moon_sky_view.is_some()))),
+            ("MOON", flag(inputs.moon.is_some())),
+            ("MOONLIGHT", flag(moon_sky_view.is_some())),
         ];
+        if inputs.sky_view.is_none() {
+            constants.extend(inputs.plan.march_constants());
+        }
         let kernel = self.kernels.get(gpu, &constants);
         recorder.dispatch(kernel, &binds, [tile.size_px.x, tile.size_px.y, 1]);
     }

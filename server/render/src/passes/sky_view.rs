@@ -58,9 +58,7 @@ impl SkyView {
                 Bind::Table(&source.view),
                 Bind::Table(&view),
             ];
-            let kernel = self
-                .kernels
-                .get(gpu, &[("MULTIPLE", f64::from(u8::from(plan.multiple)))]);
+            let kernel = self.kernels.get(gpu, &plan.march_constants());
             recorder.dispatch(kernel, &binds, [width, height, 1]);
             Table { view, made_from }
         })

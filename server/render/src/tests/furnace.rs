@@ -138,7 +138,7 @@ fn every_ray_through_a_white_furnace_is_white() {
         let statements = "let ground = distance_to_sphere(air.radius_m, a.x, a.y);
             let length = select(distance_to_top(air.radius_m, air.top_m, a.x, a.y), ground, ground >= 0.0);
             let ray = AirRay(a.x, a.y, a.z, a.y * a.z, length);
-            let s = scatter_along(air, ray, transmittance_table, source_before, linear_clamp, March(false, true, false, u32(a.w), 0u));
+            let s = scatter_along(air, ray, transmittance_table, source_before, linear_clamp, March(false, true, false, false, u32(a.w), 1u, 0u));
             x = vec4f(s.multiple + exp(-s.optical_depth), 0.0);";
         for (row, found) in rows.iter().zip(evaluate(
             gpu,
