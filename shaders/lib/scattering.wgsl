@@ -60,19 +60,17 @@ fn scatter_along(
     let hazy = shell_stretch(air.radius_m + air.haze_top_m, ray.altitude_m - air.haze_top_m, ray.mu, ray.length_m);
     let has_haze = march.with_haze && hazy.x < hazy.y;
     let end = ray.length_m;
-    var cuts = sorted(lowest, select(vec2f(end), dark, has_dark), select(vec2f(end), hazy, has_haze), end);
-    var pieces = 0u;
-    for (var i = 0u; i < PIECES; i++) {
-        pieces += u32(cuts[i + 1u] > cuts[i]);
-    }
-    let groups = max(march.steps / (max(pieces, 1u) * march.group), LEAST_STEPS / march.group);
+    let cuts = vec4f(select(vec2f(end), dark, has_dark), select(vec2f(end), hazy, has_haze));
+    let pieces = 1u + within(lowest, end) + within(cuts.x, end) + within(cuts.y, end) + within(cuts.z, end) + within(cuts.w, end);
+    let groups = max(march.steps / (pieces * march.group), LEAST_STEPS / march.group);
     let piece_steps = groups * march.group;
-    for (var i = 0u; i < PIECES; i++) {
-        let from_m = cuts[i];
-        let length_m = cuts[i + 1u] - from_m;
-        if length_m <= 0.0 {
-            continue;
-        }
+    var from_m = 0.0;
+    // At most as many rounds as there are cuts, since each goes to a farther one.
+    while from_m < end {
+        // The next cut.
+        let far_cuts = select(vec4f(end), cuts, cuts > vec4f(from_m));
+        let to_m = min(min(min(far_cuts.x, far_cuts.y), min(far_cuts.z, far_cuts.w)), select(end, lowest, lowest > from_m));
+        let length_m = to_m - from_m;
         let middle = from_m + 0.5 * length_m;
         let lit = !(has_dark && middle > dark.x && middle < dark.y);
         let in_haze = has_haze && middle > hazy.x && middle < hazy.y;
@@ -120,32 +118,18 @@ fn scatter_along(
                 near = far;
             }
         }
+        from_m = to_m;
     }
     return sum;
 }
 
-const PIECES = 6u;
 // In each piece.
 const LEAST_STEPS = 4u;
 // Beyond e⁻¹² nothing of the haze is seen.
 const DEEPEST_HAZE = 12.0;
 
-// The places at which a ray is cut, in order: two stretches and a place between 0 and the end.
-fn sorted(place: f32, a: vec2f, b: vec2f, end: f32) -> array<f32, 7> {
-    // Two pairs that are each in order, merged, and the single place put among them.
-    let first = min(a.x, b.x);
-    let last = max(a.y, b.y);
-    let inner = vec2f(max(a.x, b.x), min(a.y, b.y));
-    let q = array<f32, 4>(first, min(inner.x, inner.y), max(inner.x, inner.y), last);
-    return array<f32, 7>(
-        0.0,
-        min(place, q[0]),
-        max(min(place, q[1]), q[0]),
-        max(min(place, q[2]), q[1]),
-        max(min(place, q[3]), q[2]),
-        max(place, q[3]),
-        end,
-    );
+fn within(cut: f32, end: f32) -> u32 {
+    return u32(cut > 0.0 && cut < end);
 }
 
 // Share of a piece's length that lies before the share u of its steps.
