@@ -54,8 +54,8 @@ impl Plan {
     /// For the entries of the table of the sky.
     pub(crate) fn sky_view_steps(&self, quality: Quality) -> Steps {
         let usual = match quality {
-            Quality::Preview => 32,
-            Quality::Final => 48,
+            Quality::Preview => 24,
+            Quality::Final => 40,
         };
         Steps {
             view: self.view_steps.unwrap_or(usual),

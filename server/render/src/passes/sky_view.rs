@@ -19,8 +19,8 @@ pub(crate) struct SkyView {
 /// Azimuths over half the sky, and rows, half below the horizon, half above.
 const fn size(quality: Quality) -> [u32; 2] {
     match quality {
-        Quality::Preview => [32, 128],
-        Quality::Final => [48, 224],
+        Quality::Preview => [24, 96],
+        Quality::Final => [36, 168],
     }
 }
 
