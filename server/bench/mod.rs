@@ -4,6 +4,7 @@
 //! device. Processes of all setups, and the baseline, take turns; figures are medians over the rounds. Facts are
 //! checked (which passes ran), times never.
 
+mod air;
 mod baseline;
 mod process;
 mod report;
@@ -12,6 +13,7 @@ mod setup;
 mod sky;
 mod stopwatch;
 mod table;
+mod viewer;
 
 pub(crate) use process::Device;
 pub(crate) use report::Report;
@@ -24,7 +26,7 @@ use stopwatch::Spent;
 use welkin_scene::renderer::{DeviceInfo, PassTime};
 
 /// All cases.
-pub(crate) static CASES: [&dyn Case; 1] = [&sky::Sky];
+pub(crate) static CASES: [&dyn Case; 2] = [&sky::Sky, &air::Air];
 
 /// Something to measure.
 pub(crate) trait Case: Sync {
@@ -36,6 +38,11 @@ pub(crate) trait Case: Sync {
 
     /// What is measured, setups of one size side by side. `sizes` are those asked for; without them, the case's own.
     fn setups(&self, sizes: Option<&[Size]>) -> Vec<Setup>;
+
+    /// The setup over which the speed-up of this one is told; none where the case knows none.
+    fn slower(&self, _setup: &Setup) -> Option<Setup> {
+        None
+    }
 
     /// Measures one setup, in its own process. Every run gives the same works in the same order.
     ///

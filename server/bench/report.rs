@@ -46,6 +46,11 @@ pub(crate) struct Row {
     /// Medians.
     #[serde(flatten)]
     pub(crate) spent: Spent,
+    /// The setup that the case compares this one with.
+    #[serde(skip)]
+    pub(crate) slower: Option<Setup>,
+    /// Over the same work there.
+    pub(crate) speedup: Option<Speedup>,
     /// As the case defines it.
     pub(crate) error: Option<f64>,
     /// The passes that ran, each with its median.
@@ -54,6 +59,15 @@ pub(crate) struct Row {
     pub(crate) peak_memory_bytes: Option<u64>,
     /// A frame of the baseline, for work that rendered.
     pub(crate) baseline: Option<BaselineRow>,
+}
+
+/// How many times faster than another setup of the same case.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub(crate) struct Speedup {
+    /// Its median over ours, time on the clock.
+    pub(crate) wall_ratio: f64,
+    /// Its median over ours, time of all threads.
+    pub(crate) cpu_ratio: Option<f64>,
 }
 
 /// A frame of the baseline at the same size.
@@ -86,6 +100,10 @@ impl Report {
             .filter(|_| baseline_absent.is_none())
             .map(|one| one.renderer.clone());
         let mut rows: Vec<Row> = all.iter().flat_map(rows).collect();
+        let speedups: Vec<_> = rows.iter().map(|row| speedup(row, &rows)).collect();
+        for (row, speedup) in rows.iter_mut().zip(speedups) {
+            row.speedup = speedup;
+        }
         if baseline_absent.is_some() {
             rows.iter_mut().for_each(|row| row.baseline = None);
         }
@@ -100,6 +118,20 @@ impl Report {
             rows,
         })
     }
+}
+
+fn speedup(row: &Row, rows: &[Row]) -> Option<Speedup> {
+    let slower = row.slower.as_ref()?;
+    let beside = |other: &&Row| (other.case, &other.setup, &other.work) == (row.case, slower, &row.work);
+    let slower = rows.iter().find(beside)?;
+    Some(Speedup {
+        wall_ratio: slower.spent.wall_ms / row.spent.wall_ms,
+        cpu_ratio: slower
+            .spent
+            .cpu_ms
+            .zip(row.spent.cpu_ms)
+            .map(|(other, own)| other / own),
+    })
 }
 
 fn rows(one: &Measurements) -> Vec<Row> {
@@ -150,6 +182,8 @@ fn row(one: &Measurements, at: usize) -> Option<Row> {
         setup: one.setup.clone(),
         work: works.first()?.work.clone(),
         spent,
+        slower: one.case.slower(&one.setup),
+        speedup: None,
         error: median(works.iter().filter_map(|work| work.error)),
         passes,
         peak_memory_bytes: one.runs.iter().filter_map(|run| run.peak_memory_bytes).max(),

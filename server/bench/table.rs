@@ -4,19 +4,20 @@ use super::report::{Report, Row};
 use serde_json::Value;
 use std::fmt;
 
-const HEAD: [&str; 9] = [
+const HEAD: [&str; 10] = [
     "case",
     "size",
     "setup",
     "work",
     "wall ms",
     "CPU ms",
+    "faster",
     "baseline",
     "error",
     "passes, ms",
 ];
 /// Columns of figures, which are set to the right.
-const FIGURES: std::ops::Range<usize> = 4..8;
+const FIGURES: std::ops::Range<usize> = 4..9;
 
 impl fmt::Display for Report {
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
@@ -82,6 +83,12 @@ fn cells(row: &Row) -> [String; HEAD.len()] {
         .passes
         .iter()
         .map(|pass| format!("{} {:.1}", pass.pass, pass.ms));
+    let faster = row.speedup.map_or_else(String::new, |speedup| {
+        let cpu = speedup
+            .cpu_ratio
+            .map_or_else(String::new, |ratio| format!(" / {ratio:.1}x"));
+        format!("{:.1}x{cpu}", speedup.wall_ratio)
+    });
     let ratio = row.baseline.as_ref().and_then(|baseline| baseline.cpu_ratio);
     [
         row.case.to_owned(),
@@ -90,6 +97,7 @@ fn cells(row: &Row) -> [String; HEAD.len()] {
         row.work.clone(),
         format!("{:.1}", row.spent.wall_ms),
         row.spent.cpu_ms.map_or_else(String::new, |ms| format!("{ms:.1}")),
+        faster,
         ratio.map_or_else(String::new, |ratio| format!("{ratio:.1}x")),
         row.error.map_or_else(String::new, |error| format!("{error:.2e}")),
         passes.collect::<Vec<_>>().join(", "),

@@ -11,7 +11,7 @@ use std::path::{Path, PathBuf};
 /// Arguments of `welkin bench`.
 #[derive(clap::Args)]
 pub(crate) struct Args {
-    /// What to measure: sky [default: all]
+    /// What to measure: sky, air [default: all]
     name: Option<String>,
     /// Of how many runs each figure is the median
     #[arg(long, value_name = "COUNT", default_value_t = 7, value_parser = clap::value_parser!(u32).range(1..))]
