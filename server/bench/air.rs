@@ -114,13 +114,14 @@ impl Case for Air {
     }
 }
 
-/// The thesis' own scene by day. It draws no disc.
+/// The thesis' own scene by day. It draws no disc, and nothing of the night, which is seen from space by day too.
 fn scene(place: Place, method: Method) -> Scene {
     let mut scene = preset("complutense")
         .map(|preset| preset.scene.clone())
         .unwrap_or_default();
     turn_sun(&mut scene, SUN_ELEVATION_DEG);
     scene.sun.disc = false;
+    (scene.moon, scene.stars) = (None, None);
     scene.camera = Camera {
         position_m: match place {
             Place::Ground => [0.0, 0.0, 2.0],
@@ -134,6 +135,7 @@ fn scene(place: Place, method: Method) -> Scene {
     };
     if let Some(air) = &mut scene.atmosphere {
         air.method = method;
+        air.airglow = None;
         // The third approach has no loop of the thesis' to be compared with.
         let steps = (method != Method::Lut).then_some(STEPS);
         (air.view_steps, air.sun_steps) = (steps, steps);
