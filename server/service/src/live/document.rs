@@ -45,6 +45,7 @@ pub(crate) fn answer_schema() -> Value {
                     "width_px": {"type": "integer"}, "height_px": {"type": "integer"},
                     "quality": {"enum": ["preview", "final"]}, "ev100": {"type": ["number", "null"]},
                     "sun": {"$ref": "#/components/schemas/SunPlace"},
+                    "moon": {"anyOf": [{"$ref": "#/components/schemas/MoonPlace"}, {"type": "null"}]},
                     "adapter": {"type": "string"}, "bytes": {"type": "integer"},
                 },
             },

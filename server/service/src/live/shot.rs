@@ -113,8 +113,9 @@ pub(crate) async fn take(service: Service, view: View, stage: Stage) -> Result<S
     let ms = |duration: Duration| duration.as_secs_f64() * 1e3;
     let stats = json!({
         "passes": passes, "render_ms": ms(rendering), "encode_ms": ms(encoding),
-        "width_px": width_px, "height_px": height_px, "quality": quality, "ev100": facts.ev100, "sun": facts.sun,
-        "adapter": service.renderer.device().adapter, "bytes": message.len() - header::LENGTH,
+        "width_px": width_px, "height_px": height_px, "quality": quality, "ev100": facts.ev100,
+        "sun": facts.sun, "moon": facts.moon, "adapter": service.renderer.device().adapter,
+        "bytes": message.len() - header::LENGTH,
     });
     let message = message.into();
     Ok(Shot {
