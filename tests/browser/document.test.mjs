@@ -17,6 +17,8 @@ const DEFAULT = {
   air: { height_m: 100, ozone: { centre_m: 25 }, colour: [1, 2, 3], method: 'lut' },
   fog: null,
   lens: { kind: 'narrow', fov_deg: 60 },
+  mist: 4e-6,
+  steps: null,
   lamps: [],
 };
 const SHORT_DOCUMENTS = [
@@ -29,6 +31,8 @@ const SHORT_DOCUMENTS = [
   { fog: {} },
   { fog: { centre_m: 7 }, lens: { kind: 'whole' } },
   { lens: { kind: 'round', fov_deg: 200, mapping: 'b' } },
+  { mist: [1e-6, 0, 2e-5], steps: 32 },
+  { mist: 0 },
   { lamps: [{ centre_m: 1 }, { centre_m: 2 }] },
 ];
 
@@ -36,8 +40,10 @@ test('the tree has a node for each shape', () => {
   const kinds = Object.fromEntries((root.properties ?? []).map((p) => [p.key, [p.node.type, p.node.nullable]]));
   assert.deepEqual(kinds, {
     time_s: ['number', false], sun: ['object', false], air: ['object', true], fog: ['object', true],
-    lens: ['variant', false], lamps: ['list', false],
+    lens: ['variant', false], mist: ['bands', false], steps: ['number', true], lamps: ['list', false],
   });
+  const { minimum, maximum, length, unit } = node('mist');
+  assert.deepEqual({ minimum, maximum, length, unit }, { minimum: 0, maximum: 0.1, length: 3, unit: '1/m' });
   assert.deepEqual([node('time_s').title, node('time_s').unit], ['Time', 's']);
   assert.equal(node('sun').description, 'The sun.');
   const method = node('air').properties?.find((p) => p.key === 'method')?.node;

@@ -11,6 +11,8 @@ export const SCHEMA = {
     air: { anyOf: [{ $ref: '#/$defs/Air' }, { type: 'null' }], default: { height_m: 100, ozone: { centre_m: 25 }, colour: [1, 2, 3], method: 'lut' } },
     fog: { anyOf: [{ $ref: '#/$defs/Ozone' }, { type: 'null' }], default: null },
     lens: { $ref: '#/$defs/Lens', default: { kind: 'narrow', fov_deg: 60 } },
+    mist: { anyOf: [{ type: 'number', description: 'Grey.', minimum: 0, maximum: 0.1 }, { type: 'array', description: 'Red, green, blue.', items: { type: 'number', minimum: 0, maximum: 0.1 }, minItems: 3, maxItems: 3 }], default: 4e-6, title: 'Mist', 'x-unit': '1/m' },
+    steps: { type: ['integer', 'null'], minimum: 4, maximum: 256, default: null },
     lamps: { type: 'array', items: { $ref: '#/$defs/Ozone' }, default: [] },
   },
   $defs: {

@@ -10,8 +10,12 @@ import { createScale } from '../../web/src/scale.js';
 import { curlCommand } from '../../web/src/share.js';
 import { frameSize, pictureBox } from '../../web/src/stage.js';
 import { turned } from '../../web/src/sun.js';
+import { litPath } from '../../web/src/moon.js';
+import { turnedOn } from '../../web/src/starts.js';
 import { numberText } from '../../web/src/text.js';
 import { PLACES } from '../../web/src/places.js';
+import { parts } from '../../web/src/weather-report.js';
+import { root } from './fixture.mjs';
 import { createRandom } from './random.mjs';
 
 /** @param {any} node */
@@ -33,6 +37,13 @@ test('angles are linear, and a range too wide round zero has no slider', () => {
   assert.ok(s && Math.abs(s.position(85) - 0.5) < 1e-3);
   assert.equal(scale({ minimum: -1e9, maximum: 1e9, initial: 0 }), null);
   assert.equal(scale({ minimum: 0, initial: 0 }), null);
+});
+
+test('whole numbers stay whole on a logarithmic slider', () => {
+  const s = scale({ minimum: 4, maximum: 256, integer: true });
+  assert.ok(s && s.step === 1);
+  for (let i = 0; i <= 100; i++) assert.ok(Number.isInteger(s.value(i / 100)));
+  assert.deepEqual([s.value(0), s.value(0.5), s.value(1)], [4, 32, 256]);
 });
 
 test('slider positions and values agree both ways', () => {
@@ -73,6 +84,36 @@ test('the dome shows the sun where it stands, down to the end of twilight', () =
   const east = domePoint({ azimuth_deg: 90, elevation_deg: 0 });
   assert.ok(east.x > 44 && Math.abs(east.y) < 1e-9, 'east is at the right');
   assert.equal(domeAngles({ x: 0, y: -100 }).elevation_deg, -18);
+});
+
+test('the lit part of the moon has the area that its fraction says', () => {
+  for (const fraction of [0, 0.2, 0.5, 0.8, 1]) {
+    const [, across, sweep] = litPath(10, fraction).match(/A([\d.]+) 10 0 0 ([01]) 0 -10Z$/) ?? [];
+    // Half the disc, and half an ellipse taken away from it or put to it.
+    const area = 0.5 + (sweep === '1' ? 0.5 : -0.5) * (Number(across) / 10);
+    assert.ok(Math.abs(area - fraction) < 1e-12, `${fraction}: ${area}`);
+  }
+});
+
+test('parts that are switched on begin with what makes sense', () => {
+  const known = { sun: () => ({ azimuth_deg: 200, elevation_deg: -9 }), moon: () => null };
+  const node = /** @type {any} */ (root.properties).find((/** @type {any} */ p) => p.key === 'steps').node;
+  const haze = { visibility_m: 2000, extinction_per_m: null };
+  const byExtinction = turnedOn({ haze }, '/haze/extinction_per_m', node, known).haze;
+  // Koschmieder: 3.912 over the visibility.
+  assert.deepEqual(byExtinction, { visibility_m: null, extinction_per_m: 0.00196 });
+  assert.deepEqual(turnedOn({ haze: byExtinction }, '/haze/visibility_m', node, known).haze, { visibility_m: 2000, extinction_per_m: null });
+  assert.deepEqual(turnedOn({ moon: {} }, '/moon/position', node, known).moon.position, { azimuth_deg: 20, elevation_deg: 30 });
+  const told = { azimuth_deg: 120.00001, elevation_deg: 7, phase_angle_deg: 33.3, angular_diameter_deg: 0.51234 };
+  const withMoon = { ...known, moon: () => told };
+  assert.deepEqual(turnedOn({ moon: {} }, '/moon/position', node, withMoon).moon.position, { azimuth_deg: 120, elevation_deg: 7 });
+  assert.equal(turnedOn({ moon: {} }, '/moon/phase_angle_deg', node, withMoon).moon.phase_angle_deg, 33);
+  assert.equal(turnedOn({ steps: null }, '/steps', node, known).steps, 4, 'the least, where nothing is known');
+});
+
+test('a group of a report is cut out by characters', () => {
+  assert.deepEqual(parts('METAR \u{1F327} EGUW', { start: 8, end: 12 }), ['METAR \u{1F327} ', 'EGUW', '']);
+  assert.deepEqual(parts('METAR', { start: 5, end: 5 }), ['METAR', '', '']);
 });
 
 test('a sun out of view turns the short way with the hand', () => {

@@ -1,10 +1,11 @@
-/** HTTP calls. A refusal becomes an `Error` whose message is the problem's (RFC 9457). */
+/** HTTP calls. A refusal becomes an `Error` that has the problem (RFC 9457) and its message. */
 
 /** @param {Response} response */
 async function failure(response) {
   const isProblem = response.headers.get('content-type')?.startsWith('application/problem+json');
   const problem = isProblem ? await response.json() : {};
-  return new Error(problem.detail ?? problem.title ?? `the server answered ${response.status} ${response.statusText}`);
+  const message = problem.detail ?? problem.title ?? `the server answered ${response.status} ${response.statusText}`;
+  return Object.assign(new Error(message), { problem });
 }
 
 /** @param {string} path @returns {Promise<any>} */
@@ -14,14 +15,16 @@ export async function getJson(path) {
   return response.json();
 }
 
-/** @param {any} request @param {AbortSignal} signal @returns {Promise<Blob>} */
-export async function postFrame(request, signal) {
-  const response = await fetch('v1/frames', {
-    method: 'POST',
-    headers: { 'content-type': 'application/json' },
-    body: JSON.stringify(request),
-    signal,
-  });
+/** @param {string} path @param {any} body @param {AbortSignal} [signal] */
+async function post(path, body, signal) {
+  const headers = { 'content-type': 'application/json' };
+  const response = await fetch(path, { method: 'POST', headers, body: JSON.stringify(body), signal });
   if (!response.ok) throw await failure(response);
-  return response.blob();
+  return response;
 }
+
+/** @param {any} request @param {AbortSignal} signal @returns {Promise<Blob>} */
+export const postFrame = async (request, signal) => (await post('v1/frames', request, signal)).blob();
+
+/** The scene that a weather report tells. @param {{metar: string, date: string | null}} report @returns {Promise<any>} */
+export const postReport = async (report) => (await post('v1/scenes/from-metar', report)).json();

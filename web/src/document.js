@@ -18,6 +18,7 @@ export function initial(node) {
     case 'numbers':
       return Array.from({ length: node.length ?? 0 }, () => initial(/** @type {Node} */ (node.items)));
     case 'number':
+    case 'bands':
       return Math.min(Math.max(0, node.minimum ?? -Infinity), node.maximum ?? Infinity);
     case 'choice':
       return node.options?.[0].value;

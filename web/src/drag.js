@@ -1,20 +1,23 @@
-/** What a drag on the picture does: it moves the sun, or it turns the camera. */
+/** What a drag on the picture does: it moves the sun or the moon, or it turns the camera. */
 import { turned } from './sun.js';
 import { toAngles } from './vector.js';
 
 /** @typedef {import('./view.js').Pixel} Pixel */
 /** @typedef {{move: (to: Pixel) => void}} Drag */
 
-/** Within this distance of its mark the sun is grabbed wherever it stands, CSS pixels. */
+/** Within this distance sun and moon are grabbed wherever they stand, CSS pixels. */
 const GRAB_PX = 36;
 /** A drag that begins this far below the horizon means the ground, degrees. */
 const GROUND_DEG = 0.5;
 
 /**
- * @param {import('./sun.js').Sun} sun @param {import('./camera.js').Camera} camera
- * @param {import('./stage.js').Stage} stage
+ * @param {object} parts
+ * @param {import('./sun.js').Sun} parts.sun
+ * @param {import('./moon.js').Moon} parts.moon
+ * @param {import('./camera.js').Camera} parts.camera
+ * @param {import('./stage.js').Stage} parts.stage
  */
-export function createDrags(sun, camera, stage) {
+export function createDrags({ sun, moon, camera, stage }) {
   /** From the window to the picture. @param {Pixel} pixel @returns {Pixel} */
   const inBox = (pixel) => {
     const { x, y } = stage.box();
@@ -32,11 +35,14 @@ export function createDrags(sun, camera, stage) {
     };
   };
 
-  /** A sun in view keeps its distance to the pointer on the picture. @param {Pixel} offset @returns {Drag} */
-  const carry = (offset) => ({
+  /**
+   * What is in view keeps its distance to the pointer on the picture.
+   * @param {{moveToDirection: (direction: import('./vector.js').Vec3) => void}} body @param {Pixel} offset @returns {Drag}
+   */
+  const carry = (body, offset) => ({
     move(to) {
       const { x, y } = inBox(to);
-      sun.moveToDirection(camera.view().unproject({ x: x + offset.x, y: y + offset.y }));
+      body.moveToDirection(camera.view().unproject({ x: x + offset.x, y: y + offset.y }));
     },
   });
 
@@ -58,13 +64,19 @@ export function createDrags(sun, camera, stage) {
       const view = camera.view();
       const at = inBox(from);
       const { width, height } = stage.box();
-      const direction = sun.direction();
-      const mark = direction && view.project(direction);
-      const offset = mark && { x: mark.x - at.x, y: mark.y - at.y };
-      if (offset && Math.hypot(offset.x, offset.y) < GRAB_PX) return carry(offset);
+      const fromPointer = (/** @type {import('./vector.js').Vec3 | null} */ direction) => {
+        const mark = direction && view.project(direction);
+        return mark && { x: mark.x - at.x, y: mark.y - at.y };
+      };
+      const reach = (/** @type {Pixel | null} */ step) => (step ? Math.hypot(step.x, step.y) : Infinity);
+      const offset = fromPointer(sun.direction());
+      const toMoon = moon.isGiven() ? fromPointer(moon.direction()) : null;
+      if (toMoon && reach(toMoon) < Math.min(GRAB_PX, reach(offset))) return carry(moon, toMoon);
+      if (offset && reach(offset) < GRAB_PX) return carry(sun, offset);
       if (toAngles(view.unproject(at)).elevation_deg < camera.horizonDeg() - GROUND_DEG) return look(from);
-      const inView = mark && mark.x >= 0 && mark.x <= width && mark.y >= 0 && mark.y <= height;
-      return offset && inView ? carry(offset) : swing(from);
+      const isWithin = (/** @type {number} */ v, /** @type {number} */ most) => v >= 0 && v <= most;
+      const inView = offset && isWithin(at.x + offset.x, width) && isWithin(at.y + offset.y, height);
+      return inView ? carry(sun, offset) : swing(from);
     },
   };
 }

@@ -10,6 +10,7 @@ import { listenToGestures } from './gestures.js';
 import { createHud } from './hud.js';
 import { bindings, fillHelp, listenToKeys } from './keys.js';
 import { createMark } from './mark.js';
+import { createMoon } from './moon.js';
 import { createPanel } from './panel.js';
 import { createPresets } from './presets.js';
 import { createSave } from './save.js';
@@ -21,6 +22,7 @@ import { createStore } from './store.js';
 import { createSun } from './sun.js';
 import { createTimePlace } from './time-place.js';
 import { toast } from './toast.js';
+import { createWeatherReport } from './weather-report.js';
 
 const complain = (/** @type {string} */ message) => toast(message, { bad: true });
 
@@ -30,6 +32,7 @@ async function start() {
   const canvas = byId('sky', HTMLCanvasElement);
   const stage = createStage(canvas);
   const sun = createSun(store);
+  const moon = createMoon(store);
   const camera = createCamera(store, stage);
   const hud = createHud();
   hud.device(device);
@@ -37,9 +40,10 @@ async function start() {
 
   const timePlace = createTimePlace(store);
   timePlace.onLeave(() => sun.nudge(0, 0));
-  const sky = createSky({ store, stage, sun, hud, refused: (pointer, message) => panel.complain(pointer, message) || complain(message) });
-  const known = { sun: sun.angles, ev: sky.exposure, timeAndPlace: timePlace.current };
-  const panel = createPanel(store, (value, fresh) => carryOver(value, fresh, known));
+  createWeatherReport(store);
+  const sky = createSky({ store, stage, sun, moon, hud, refused: (pointer, message) => panel.complain(pointer, message) || complain(message) });
+  const known = { sun: sun.angles, moon: moon.place, ev: sky.exposure, timeAndPlace: timePlace.current };
+  const panel = createPanel(store, (value, fresh) => carryOver(value, fresh, known), known);
   const presets = createPresets(store, presetList);
   createShare(store, address.link, stage.size);
   const save = createSave(store, stage.size);
@@ -57,10 +61,10 @@ async function start() {
   listenToKeys(keys);
   byId('open-help', HTMLButtonElement).addEventListener('click', () => help.showModal());
   byId('open-save', HTMLButtonElement).addEventListener('click', save.open);
-  listenToGestures(canvas, createDrags(sun, camera, stage), camera);
+  listenToGestures(canvas, createDrags({ sun, moon, camera, stage }), camera);
   if (window.matchMedia('(max-width: 720px)').matches) panel.show(false);
 
-  sky.run([panel, presets, timePlace, createDome(store, sun), createMark(sun, camera, stage)]);
+  sky.run([panel, presets, timePlace, createDome(store, sun, moon), createMark(sun, camera, stage)]);
 }
 
 start().catch((error) => complain(`The page cannot start: ${error.message}`));

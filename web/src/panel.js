@@ -3,17 +3,26 @@ import { byId } from './dom.js';
 import { createField } from './fields/field.js';
 import { groupField } from './fields/group.js';
 import { child, tokens } from './pointer.js';
+import { turnedOn } from './starts.js';
 
 /** Order of the parts that a photographer meets first; others follow as the schema has them. */
-const ORDER = ['camera', 'sun', 'planet', 'atmosphere', 'display'];
+const ORDER = ['camera', 'sun', 'moon', 'stars', 'atmosphere', 'haze', 'planet', 'display'];
 const OPEN = ['sun'];
 
 /** @typedef {import('./fields/row.js').Context} Context */
 
-/** @param {import('./store.js').Store} store @param {Context['carryOver']} carryOver */
-export function createPanel(store, carryOver) {
+/**
+ * @param {import('./store.js').Store} store @param {Context['carryOver']} carryOver
+ * @param {import('./starts.js').Known} known
+ */
+export function createPanel(store, carryOver, known) {
   /** @type {Context} */
-  const context = { store, carryOver, complaints: new Map() };
+  const context = {
+    store,
+    carryOver,
+    complaints: new Map(),
+    turnOn: (pointer, node) => store.replace(turnedOn(store.scene, pointer, node, known)),
+  };
   const rank = (/** @type {string} */ key) => (ORDER.includes(key) ? ORDER.indexOf(key) : ORDER.length);
   const properties = [...(store.root.properties ?? [])].sort((a, b) => rank(a.key) - rank(b.key));
   const fields = properties.map(({ key, node }) => {

@@ -17,7 +17,7 @@ export function createScale({ minimum, maximum, initial, unit, integer }) {
   if (minimum < 0 && span > WIDEST_ROUND_ZERO) return null;
   const anchor = minimum > 0 ? minimum : Number(initial) / BELOW_DEFAULT;
   const decades = minimum > 0 ? maximum / minimum : maximum / Number(initial);
-  if (minimum >= 0 && unit !== '°' && anchor > 0 && decades >= DECADES) return logarithmic(minimum, anchor, maximum);
+  if (minimum >= 0 && unit !== '°' && anchor > 0 && decades >= DECADES) return logarithmic(minimum, anchor, maximum, Boolean(integer));
   const step = Math.max(10 ** Math.floor(Math.log10(span / 500)), integer ? 1 : 0);
   return {
     step,
@@ -26,13 +26,16 @@ export function createScale({ minimum, maximum, initial, unit, integer }) {
   };
 }
 
-/** @param {number} minimum @param {number} low First value above the minimum @param {number} high @returns {Scale} */
-function logarithmic(minimum, low, high) {
+/** @param {number} minimum @param {number} low First value above the minimum @param {number} high @param {boolean} integer @returns {Scale} */
+function logarithmic(minimum, low, high, integer) {
   const ratio = Math.log(high / low);
   return {
-    step: 10 ** Math.floor(Math.log10(low)),
+    step: integer ? 1 : 10 ** Math.floor(Math.log10(low)),
     position: (value) => (value <= low ? 0 : clamp(Math.log(value / low) / ratio, 0, 1)),
-    value: (position) => (position <= 0 ? minimum : clamp(Number((low * Math.exp(position * ratio)).toPrecision(3)), minimum, high)),
+    value: (position) => {
+      const value = position <= 0 ? minimum : low * Math.exp(position * ratio);
+      return clamp(integer ? Math.round(value) : Number(value.toPrecision(3)), minimum, high);
+    },
   };
 }
 

@@ -5,7 +5,7 @@ import { isObject } from './json.js';
 
 /**
  * @typedef {object} Node
- * @property {'object' | 'number' | 'numbers' | 'list' | 'choice' | 'boolean' | 'text' | 'variant'} type
+ * @property {'object' | 'number' | 'numbers' | 'bands' | 'list' | 'choice' | 'boolean' | 'text' | 'variant'} type
  * @property {string} title
  * @property {string} unit
  * @property {string} description
@@ -14,9 +14,9 @@ import { isObject } from './json.js';
  * @property {number} [minimum]
  * @property {number} [maximum]
  * @property {boolean} [integer]
- * @property {number} [length] Of `numbers`.
+ * @property {number} [length] Of `numbers` and `bands`.
  * @property {Property[]} [properties] Of `object`.
- * @property {Node} [items] Of `numbers` and `list`.
+ * @property {Node} [items] Of `numbers`, `bands` and `list`.
  * @property {{value: string, description: string}[]} [options] Of `choice`.
  * @property {Variant[]} [variants] Of `variant`.
  */
@@ -91,6 +91,10 @@ function readAlternatives(alternatives, resolve) {
       (a.enum ?? [a.const]).map((/** @type {string} */ value) => ({ value, description: a.description ?? '' })),
     );
     return { type: 'choice', options };
+  }
+  const [one, three] = flat;
+  if (flat.length === 2 && one.type === 'number' && three.type === 'array') {
+    return { type: 'bands', minimum: one.minimum, maximum: one.maximum, length: three.minItems, items: readNode(three.items, resolve) };
   }
   const variants = flat.map((a) => {
     const kind = a.properties?.kind?.const;

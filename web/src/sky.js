@@ -3,7 +3,7 @@ import { connectLive } from './live.js';
 import { getAt, setAt } from './pointer.js';
 import { decodeFrame, isFinal, parseFrame } from './protocol.js';
 import { createSync } from './sync.js';
-import { compass } from './text.js';
+import { compass, percent } from './text.js';
 
 /** From this status on the scene is not to blame. */
 const SERVER_FAULT = 500;
@@ -13,10 +13,11 @@ const SERVER_FAULT = 500;
  * @param {import('./store.js').Store} parts.store
  * @param {import('./stage.js').Stage} parts.stage
  * @param {import('./sun.js').Sun} parts.sun
+ * @param {import('./moon.js').Moon} parts.moon
  * @param {import('./hud.js').Hud} parts.hud
  * @param {(pointer: string, message: string) => void} parts.refused Shows why the server refused a scene
  */
-export function createSky({ store, stage, sun, hud, refused }) {
+export function createSky({ store, stage, sun, moon, hud, refused }) {
   const canvas = /** @type {HTMLCanvasElement} */ (document.getElementById('sky'));
   let changed = true;
   /** @type {number | null} */
@@ -54,6 +55,7 @@ export function createSky({ store, stage, sun, hud, refused }) {
     if (!stats) return;
     hud.times(stats);
     sun.report(stats.sun);
+    moon.report(stats.moon);
     exposure = stats.ev100;
     changed = true;
   };
@@ -72,10 +74,15 @@ export function createSky({ store, stage, sun, hud, refused }) {
   window.addEventListener('resize', () => (changed = true));
 
   const describe = () => {
-    const angles = sun.angles();
+    const [angles, place] = [sun.angles(), moon.place()];
     if (!angles) return;
-    const height = `${Math.abs(angles.elevation_deg).toFixed(0)} degrees ${angles.elevation_deg < 0 ? 'below' : 'above'} the horizon`;
-    canvas.setAttribute('aria-label', `The sky. Sun ${height} in the ${compass(angles.azimuth_deg)}, azimuth ${angles.azimuth_deg.toFixed(0)} degrees.`);
+    const where = (/** @type {import('./vector.js').Angles} */ { azimuth_deg, elevation_deg }) => {
+      const height = `${Math.abs(elevation_deg).toFixed(0)} degrees ${elevation_deg < 0 ? 'below' : 'above'} the horizon`;
+      return `${height} in the ${compass(azimuth_deg)}, azimuth ${azimuth_deg.toFixed(0)} degrees.`;
+    };
+    const lit = place?.illuminated_fraction;
+    const ofMoon = place && lit !== undefined ? ` Moon ${percent(lit)} lit, ${where(place)}` : '';
+    canvas.setAttribute('aria-label', `The sky. Sun ${where(angles)}${ofMoon}`);
   };
 
   return {

@@ -13,8 +13,8 @@ export const isTimed = (position) => typeof position === 'object' && 'time' in p
 /** Four decimals: finer than a pixel at any field of view that a person drags in. @param {number} deg */
 const tidy = (deg) => Math.round(deg * 1e4) / 1e4 + 0;
 
-/** @param {Angles} angles @returns {Angles} */
-const limited = ({ azimuth_deg, elevation_deg }) => ({
+/** Into what a hand can reach. @param {Angles} angles @returns {Angles} */
+export const limited = ({ azimuth_deg, elevation_deg }) => ({
   azimuth_deg: tidy(wrap360(azimuth_deg)),
   elevation_deg: tidy(clamp(elevation_deg, LOWEST_SUN_DEG, 90)),
 });

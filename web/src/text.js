@@ -1,7 +1,11 @@
 /** Names and numbers as people read them. */
 
+/** Names that are not words. @type {Record<string, string>} */
+const PROPER = { aces: 'ACES', agx: 'AgX', ev: 'EV', lut: 'LUT' };
+
 /** `exr-float` or `tone_curve` as a label. @param {string} name */
 export function sentence(name) {
+  if (Object.hasOwn(PROPER, name)) return PROPER[name];
   const words = name.replaceAll(/[_-]/g, ' ');
   return words.charAt(0).toUpperCase() + words.slice(1);
 }
@@ -18,6 +22,9 @@ export const milliseconds = (ms) => `${ms < 10 ? ms.toFixed(1) : Math.round(ms)}
 
 /** @param {number} deg @param {number} [digits] */
 export const degrees = (deg, digits = 1) => `${(Math.round(deg * 10 ** digits) / 10 ** digits + 0).toFixed(digits)}°`;
+
+/** @param {number} share 0 to 1 */
+export const percent = (share) => `${Math.round(100 * share)} %`;
 
 /** The point of the compass, for speech. @param {number} azimuthDeg */
 export const compass = (azimuthDeg) =>

@@ -2,7 +2,7 @@
 import { booleanField, choiceField, textField } from './choice.js';
 import { groupField } from './group.js';
 import { listField } from './list.js';
-import { numberField, numbersField } from './number.js';
+import { bandsField, numberField, numbersField } from './number.js';
 import { optionalField } from './optional.js';
 import { variantField } from './variant.js';
 
@@ -11,6 +11,7 @@ const FIELDS = {
   object: groupField,
   number: numberField,
   numbers: numbersField,
+  bands: bandsField,
   list: listField,
   choice: choiceField,
   boolean: booleanField,

@@ -1,6 +1,5 @@
 /** A part of the scene: its fields under a heading that folds, with a switch where the part may be off. */
 import { h, uniqueId } from '../dom.js';
-import { initial } from '../document.js';
 import { child } from '../pointer.js';
 import { createField } from './field.js';
 import { resetButton } from './row.js';
@@ -9,7 +8,10 @@ import { resetButton } from './row.js';
 /** @typedef {import('./row.js').Field} Field */
 
 /** Fields that a photographer looks for first. */
-const FIRST = ['position', 'position_m', 'direction', 'projection', 'exposure', 'tone_curve'];
+const FIRST = [
+  'position', 'position_m', 'direction', 'projection', 'exposure', 'tone_curve', 'visibility_m', 'extinction_per_m',
+  'phase_angle_deg', 'method', 'orders', 'view_steps', 'sun_steps',
+];
 
 /** Fields of an object: the foremost, then the simple, then whole parts. @param {import('./row.js').Context} context @param {string} pointer @param {Node} node */
 export function createFields(context, pointer, node) {
@@ -48,7 +50,8 @@ export function groupField(context, pointer, node, open = false) {
   const { element, head, body, fold, reset } = createFold(context, pointer, node, open);
   const on = h('input', { type: 'checkbox', class: 'switch', 'aria-label': `${node.title} on` });
   on.addEventListener('change', () => {
-    context.store.set(pointer, on.checked ? (initial(node) ?? initial({ ...node, initial: undefined })) : null);
+    if (on.checked) context.turnOn(pointer, node);
+    else context.store.set(pointer, null);
     fold(on.checked);
   });
   if (node.nullable) head.append(on);

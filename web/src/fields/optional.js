@@ -1,5 +1,4 @@
-/** A field that may be off, where what it holds is no group of its own. */
-import { initial } from '../document.js';
+/** A field that may be off, where what it holds is no group of its own: one heading with a switch. */
 import { h } from '../dom.js';
 
 /** @typedef {import('../schema.js').Node} Node */
@@ -11,15 +10,17 @@ import { h } from '../dom.js';
  */
 export function optionalField(context, pointer, node, create) {
   const on = h('input', { type: 'checkbox', class: 'switch', 'aria-label': `${node.title} on` });
-  const body = h('div');
-  const whole = { ...node, nullable: false };
+  const body = h('div', { class: 'optional-body' });
   on.addEventListener('change', () => {
-    context.store.set(pointer, on.checked ? (initial(whole) ?? initial({ ...whole, initial: undefined })) : null);
+    if (on.checked) context.turnOn(pointer, node);
+    else context.store.set(pointer, null);
   });
+  const unit = node.unit ? h('span', { class: 'unit' }, node.unit) : null;
+  const head = h('label', { class: 'field-head', title: node.description }, h('span', {}, node.title, unit), on);
   /** @type {import('./row.js').Field | null} */
   let field = null;
   return {
-    element: h('div', { class: 'optional' }, h('label', { class: 'field-head', title: node.description }, h('span', {}, node.title), on), body),
+    element: h('div', { class: 'optional', 'data-optional': pointer }, head, body),
     update(value) {
       on.checked = value !== null;
       if (value === null) {
@@ -28,7 +29,8 @@ export function optionalField(context, pointer, node, create) {
         return;
       }
       if (!field) {
-        field = create(context, pointer, whole);
+        // What it begins with is what its slider is scaled by.
+        field = create(context, pointer, { ...node, nullable: false, initial: value });
         body.replaceChildren(field.element);
       }
       field.update(value);

@@ -10,6 +10,7 @@ import { equal } from '../json.js';
  * @property {import('../store.js').Store} store
  * @property {Map<string, (message: string) => void>} complaints How to show an error at a pointer.
  * @property {(value: any, fresh: any) => any} carryOver Keeps what an old variant's value says in a new one.
+ * @property {(pointer: string, node: Node) => void} turnOn Gives a part that is off the values it begins with.
  */
 
 /** @param {Context} context @param {string} pointer @param {Node} node */
@@ -24,9 +25,9 @@ export function resetButton({ store }, pointer, node) {
 }
 
 /**
- * A row round controls that `build` makes; `labelled` is the id that the label names.
+ * A row round controls that `build` makes: the label names the control of the given id, and `beside` stands at its end.
  * @param {Context} context @param {string} pointer @param {Node} node
- * @param {(id: string, edit: (value: any) => void, complain: (message: string) => void) => {controls: HTMLElement[], show: (value: any) => void}} build
+ * @param {(id: string, edit: (value: any) => void, complain: (message: string) => void) => {controls: HTMLElement[], show: (value: any) => void, beside?: HTMLElement}} build
  * @returns {Field}
  */
 export function createRow(context, pointer, node, build) {
@@ -46,7 +47,7 @@ export function createRow(context, pointer, node, build) {
     error.hidden = false;
     mark();
   };
-  const { controls, show } = build(
+  const { controls, show, beside = null } = build(
     id,
     (value) => {
       settle();
@@ -68,7 +69,7 @@ export function createRow(context, pointer, node, build) {
   const element = h(
     'div',
     { class: `field ${node.type}`, 'data-pointer': pointer, role: 'group', 'aria-label': node.title, 'aria-describedby': error.id },
-    h('div', { class: 'field-head' }, label, reset.button),
+    h('div', { class: 'field-head' }, label, beside, reset.button),
     h('div', { class: 'controls' }, ...controls),
     error,
   );
