@@ -1,11 +1,12 @@
 /** The sky's dome from above, north at the top: shows sun and moon wherever they stand, and moves them. */
 import { byId } from './dom.js';
-import { LOWEST_SUN_DEG } from './sun.js';
 import { litPath } from './moon.js';
 import { compass, degrees, percent } from './text.js';
 import { clamp, directionAngles, wrap360 } from './vector.js';
 
 const RAD = Math.PI / 180;
+/** End of astronomical twilight: below it no sunlight reaches the sky. */
+const LOWEST_SUN_DEG = -18;
 /** Radius of the horizon; the rim beyond it is the twilight down to the lowest sun. In the SVG's units. */
 const HORIZON = 45;
 const PER_DEGREE = HORIZON / 90;

@@ -3,8 +3,6 @@ import { clamp, directionAngles, fromAngles, toAngles, wrap180, wrap360 } from '
 
 /** @typedef {import('./vector.js').Angles} Angles */
 
-/** End of astronomical twilight: below it no sunlight reaches the sky. */
-export const LOWEST_SUN_DEG = -18;
 export const POSITION = '/sun/position';
 
 /** @param {any} position @returns {boolean} */
@@ -13,10 +11,10 @@ export const isTimed = (position) => typeof position === 'object' && 'time' in p
 /** Four decimals: finer than a pixel at any field of view that a person drags in. @param {number} deg */
 const tidy = (deg) => Math.round(deg * 1e4) / 1e4 + 0;
 
-/** Into what a hand can reach. @param {Angles} angles @returns {Angles} */
+/** Into range. @param {Angles} angles @returns {Angles} */
 export const limited = ({ azimuth_deg, elevation_deg }) => ({
   azimuth_deg: tidy(wrap360(azimuth_deg)),
-  elevation_deg: tidy(clamp(elevation_deg, LOWEST_SUN_DEG, 90)),
+  elevation_deg: tidy(clamp(elevation_deg, -90, 90)),
 });
 
 /** @param {import('./store.js').Store} store */
