@@ -42,9 +42,8 @@ struct Scattered {
 
 // ∫ T σ_s S dt. The ray is cut at its lowest point, where the planet's shadow begins and ends and where the haze does,
 // so that density, and light or dark, run evenly through each piece. In a piece, steps grow with the square from its
-// lower end, where the air is densest; in a dense haze they take equal shares of what is seen of it from the piece's
-// near end. Within a step the source is constant and its own attenuation exact (Hillaire 2015):
-// ∫ S e^{-σt} dt = S (1 - e^{-σΔt}) / σ.
+// lower end, where the air is densest; in a dense haze they are closest at the piece's near end. Within a step the
+// source is constant and its own attenuation exact (Hillaire 2015): ∫ S e^{-σt} dt = S (1 - e^{-σΔt}) / σ.
 fn scatter_along(
     air: Air,
     ray: AirRay,
@@ -75,7 +74,7 @@ fn scatter_along(
         let lit = !(has_dark && middle > dark.x && middle < dark.y);
         let in_haze = has_haze && middle > hazy.x && middle < hazy.y;
         let rising = middle > lowest;
-        let haze_depth = min(select(0.0, air.haze_extinction_per_m * length_m, in_haze), DEEPEST_HAZE);
+        let haze_depth = select(0.0, air.haze_extinction_per_m * length_m, in_haze);
         var near = 0.0;
         for (var g = 0u; g < groups; g++) {
             var source = vec3f(0.0);
@@ -125,8 +124,8 @@ fn scatter_along(
 
 // In each piece.
 const LEAST_STEPS = 4u;
-// Beyond e⁻¹² nothing of the haze is seen.
-const DEEPEST_HAZE = 12.0;
+// Beyond e⁻¹⁶ nothing of the haze is seen: the last step takes the rest.
+const DEEPEST_HAZE = 16.0;
 
 fn within(cut: f32, end: f32) -> u32 {
     return u32(cut > 0.0 && cut < end);
@@ -138,6 +137,11 @@ fn share_before(with_haze: bool, u: f32, haze_depth: f32, rising: bool) -> f32 {
     if !with_haze || haze_depth <= 1.0 {
         return squared;
     }
-    // Equal shares of 1 - e^{-haze_depth}.
-    return -log(1.0 - u * (1.0 - exp(-haze_depth))) / haze_depth;
+    if u >= 1.0 {
+        return 1.0;
+    }
+    // Steps as dense as e^{-τ/8}: closest where most is seen, but not sparse at the far end, where under a low sun light
+    // may rise faster along the ray than the haze takes it away.
+    let seen = 1.0 - exp(-0.125 * min(haze_depth, DEEPEST_HAZE));
+    return -8.0 * log(1.0 - u * seen) / haze_depth;
 }

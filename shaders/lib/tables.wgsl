@@ -51,9 +51,21 @@ fn transmittance_point(radius_m: f32, top_m: f32, unit: vec2f) -> HeightCosine {
 }
 
 // Multiple scattering: x is the sun's cosine, finer about the horizon; y is the height. Above the haze it is finer
-// towards its lower end; the haze, where there is one, has the first HAZE_ROWS rows for itself, evenly, so that nothing
-// bleeds over its top.
-const HAZE_ROWS = 12u;
+// towards its lower end; the haze, where there is one, has the first HAZE_ROWS rows for itself, so that nothing bleeds
+// over its top.
+const HAZE_ROWS = 16u;
+
+// Share of the haze's height at y of its rows. In a dense one the light changes within a free path of either end, at
+// the top with the sun's fall, and linearly between (diffusion): rows stand closer by the square towards both ends.
+fn haze_share(y: f32) -> f32 {
+    let end = min(y, 1.0 - y);
+    return select(2.0 * end * end, 1.0 - 2.0 * end * end, y > 0.5);
+}
+
+fn haze_unit(share: f32) -> f32 {
+    let end = sqrt(0.5 * clamp(min(share, 1.0 - share), 0.0, 0.5));
+    return select(end, 1.0 - end, share > 0.5);
+}
 
 fn sun_cosine_unit(mu_s: f32) -> f32 {
     return 0.5 + 0.5 * sign(mu_s) * sqrt(abs(mu_s));
@@ -88,7 +100,7 @@ fn multi_scattering_unit(air: Air, p: HeightCosine, in_haze: bool, rows: u32) ->
     let first = select(HAZE_ROWS, 0u, in_haze);
     let count = select(rows - HAZE_ROWS, HAZE_ROWS, in_haze);
     let above = sqrt(clamp((p.altitude_m - air.haze_top_m) / max(air.top_m - air.haze_top_m, 1.0), 0.0, 1.0));
-    let y = select(above, clamp(p.altitude_m / air.haze_top_m, 0.0, 1.0), in_haze);
+    let y = select(above, haze_unit(p.altitude_m / air.haze_top_m), in_haze);
     return vec2f(x, (f32(first) + 0.5 + y * f32(count - 1u)) / f32(rows));
 }
 
@@ -102,7 +114,7 @@ fn multi_scattering_point(air: Air, texel: vec2u, size: vec2u) -> MultiScatterin
     let mu_s = sun_cosine_point(texel_to_unit(texel.x, size.x));
     let hazy = air.haze_extinction_per_m > 0.0;
     if hazy && texel.y < HAZE_ROWS {
-        return MultiScatteringPoint(texel_to_unit(texel.y, HAZE_ROWS) * air.haze_top_m, mu_s, true);
+        return MultiScatteringPoint(haze_share(texel_to_unit(texel.y, HAZE_ROWS)) * air.haze_top_m, mu_s, true);
     }
     let first = select(0u, HAZE_ROWS, hazy);
     let floor_m = select(0.0, air.haze_top_m, hazy);

@@ -17,7 +17,7 @@ use welkin_scene::{Quality, Scene};
 const VIEW_AZIMUTHS: u32 = 8;
 
 /// Heights in the haze, as in `lib/tables.wgsl`.
-const HAZE_ROWS: u32 = 12;
+const HAZE_ROWS: u32 = 16;
 
 /// Angles of the convolved phase function.
 const ANGLES: usize = 256;
@@ -183,14 +183,17 @@ fn follow(
     };
     let mut before = new_pair();
     let mut after = new_pair();
+    // A ray through haze is cut into pieces, which share its steps.
+    let steps_share = if wanted.haze { 2 } else { 1 };
     for index in 1..=wanted.orders {
         let order = OrderUniform {
             last: u32::from(index == wanted.orders),
-            steps: if index == 1 {
-                detail.first_steps
-            } else {
-                detail.later_steps
-            },
+            steps: steps_share
+                * if index == 1 {
+                    detail.first_steps
+                } else {
+                    detail.later_steps
+                },
         };
         let order = Part::new(&order).upload(gpu, "order");
         let first = index == 1;

@@ -8,9 +8,11 @@
 )]
 
 mod air;
+mod constants;
 mod disc;
 mod display;
 mod frames;
+mod haze;
 mod horizon;
 mod lens;
 mod methods;
