@@ -16,8 +16,12 @@ override METHOD: u32 = 0u;
 override MULTIPLE: bool = true;
 override HAZE: bool = true;
 
+// As `sight_at` numbers it.
+override PROJECTION: u32 = 0u;
+
 // Further variants, so that a scene pays for what it has: a moon whose disc is shown or hides the sun's, and one that
 // lights air and ground as well.
+override AIRGLOW: bool = true;
 override MOON: bool = false;
 override MOONLIGHT: bool = false;
 
@@ -80,8 +84,8 @@ fn disc_in_pixel(place: vec2f, direction: vec3f) -> vec3f {
         return vec3f(0.0);
     }
     // From the centre to the corners; not quite, since a cubemap's next face begins there.
-    let falling = angle_between(direction, sight_at(camera, place + vec2f(0.49, 0.49)).direction);
-    let rising = angle_between(direction, sight_at(camera, place + vec2f(0.49, -0.49)).direction);
+    let falling = angle_between(direction, sight_at(camera, PROJECTION, place + vec2f(0.49, 0.49)).direction);
+    let rising = angle_between(direction, sight_at(camera, PROJECTION, place + vec2f(0.49, -0.49)).direction);
     let reach = max(falling, rising);
     let alpha = max(view.sun_angular_radius, reach);
     if angle + 3.0 * reach < alpha && !(MOON && moon.sun_left < 1.0) {
@@ -90,7 +94,7 @@ fn disc_in_pixel(place: vec2f, direction: vec3f) -> vec3f {
     var sum = vec3f(0.0);
     for (var i = 0; i < DISC_PLACES * DISC_PLACES; i++) {
         let at = (vec2f(f32(i % DISC_PLACES), f32(i / DISC_PLACES)) + 0.5) / f32(DISC_PLACES) - 0.5;
-        let towards = sight_at(camera, place + at).direction;
+        let towards = sight_at(camera, PROJECTION, place + at).direction;
         let hidden = MOON && alpha == view.sun_angular_radius && angle_between(towards, moon.direction) < moon.angular_radius;
         sum += select(1.0, 0.0, hidden) * disc_radiance(view, alpha, angle_between(towards, view.sun));
     }
@@ -110,8 +114,8 @@ fn moon_in_pixel(place: vec2f, direction: vec3f) -> vec3f {
     if moon.disc == 0.0 || moon.angular_radius <= 0.0 || angle > moon.angular_radius + 4.0 * camera.pixel_angle {
         return vec3f(0.0);
     }
-    let falling = angle_between(direction, sight_at(camera, place + vec2f(0.49, 0.49)).direction);
-    let rising = angle_between(direction, sight_at(camera, place + vec2f(0.49, -0.49)).direction);
+    let falling = angle_between(direction, sight_at(camera, PROJECTION, place + vec2f(0.49, 0.49)).direction);
+    let rising = angle_between(direction, sight_at(camera, PROJECTION, place + vec2f(0.49, -0.49)).direction);
     let reach = max(falling, rising);
     let alpha = max(moon.angular_radius, reach);
     let fainter = sin(0.5 * moon.angular_radius) / sin(0.5 * alpha);
@@ -120,7 +124,7 @@ fn moon_in_pixel(place: vec2f, direction: vec3f) -> vec3f {
     for (var i = 0; i < places * places; i++) {
         // A lattice of irrational steps (Roberts 2018) falls on no line of the crescent.
         let at = fract(0.5 + f32(i) * vec2f(0.7548777, 0.5698403)) - 0.5;
-        let towards = sight_at(camera, place + at).direction;
+        let towards = sight_at(camera, PROJECTION, place + at).direction;
         sum += moon_radiance(moon, moon_face, linear_clamp, place_on_moon(moon, alpha, towards));
     }
     return fainter * fainter * sum / f32(places * places);
@@ -174,7 +178,10 @@ fn radiance_towards(direction: vec3f, disc: vec3f) -> vec3f {
                 sum += above * moonlight_in_air(direction, mu, angle, false, 0.0);
             }
         }
-        sum += above * (exp(-depth) * disc + airglow_radiance(glow, air.radius_m, view.altitude_m, mu, ENDLESS_M, depth));
+        sum += above * exp(-depth) * disc;
+        if AIRGLOW {
+            sum += above * airglow_radiance(glow, air.radius_m, view.altitude_m, mu, ENDLESS_M, depth);
+        }
     }
     if above < 1.0 {
         // The edge of the sphere where the pixel's centre is just above it.
@@ -183,10 +190,12 @@ fn radiance_towards(direction: vec3f, disc: vec3f) -> vec3f {
         let distance_m = select(met_m, edge_m, met_m < 0.0);
         let light = light_in_air(SkyViewRay(azimuth, zenith_angle, true, distance_m), select(mu, cos(horizon), met_m < 0.0), nu);
         let left = exp(-light.optical_depth);
-        var ground = ground_radiance(air, view, nu, distance_m, transmittance_table, irradiance_table, linear_clamp)
-            + air.ground_albedo / PI * glow.ground_irradiance;
-        var between = scattered_radiance(air, view, light, nu)
-            + airglow_radiance(glow, air.radius_m, view.altitude_m, mu, distance_m, light.optical_depth);
+        var ground = ground_radiance(air, view, nu, distance_m, transmittance_table, irradiance_table, linear_clamp);
+        var between = scattered_radiance(air, view, light, nu);
+        if AIRGLOW {
+            ground += air.ground_albedo / PI * glow.ground_irradiance;
+            between += airglow_radiance(glow, air.radius_m, view.altitude_m, mu, distance_m, light.optical_depth);
+        }
         if MOONLIGHT {
             let nu_moon = clamp(dot(direction, moon_view.sun), -1.0, 1.0);
             ground += ground_radiance(air, moon_view, nu_moon, distance_m, transmittance_table, irradiance_table, linear_clamp);
@@ -203,7 +212,7 @@ fn sky(@builtin(global_invocation_id) id: vec3u) {
         return;
     }
     let place = vec2f(tile.origin_px + id.xy) + 0.5;
-    let sight = sight_at(camera, place);
+    let sight = sight_at(camera, PROJECTION, place);
     var value = vec4f(0.0);
     if sight.seen {
         var disc = disc_in_pixel(place, sight.direction);

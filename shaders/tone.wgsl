@@ -1,5 +1,5 @@
 // From radiance to the picture: the lens' glare, exposure, white balance, tone curve, sRGB, dither.
-import package::lib::colour::{LUMINANCE_PER_RADIANCE, aces, agx, exponential, reinhard, srgb_encode};
+import package::lib::colour::{LUMINANCE_PER_RADIANCE, aces, agx, exponential, reinhard, srgb_encode, srgb_of_gamma_22};
 
 // 0 reinhard, 1 exponential, 2 aces, 3 agx. A variant each, so that no device computes all four.
 override CURVE: u32 = 3u;
@@ -48,11 +48,11 @@ fn hash(v: vec3u) -> vec3u {
     return x;
 }
 
-// Triangular noise of ±1 step: the mean and the noise of what is seen no longer depend on the value.
+// Triangular noise of ±1 step: the mean and the noise of what is seen no longer depend on the value. The two halves of
+// a word are two even noises.
 fn dither_noise(pixel: vec2u) -> vec3f {
-    let a = vec3f(hash(vec3u(pixel, 0u)) >> vec3u(8u)) / 16777216.0;
-    let b = vec3f(hash(vec3u(pixel, 1u)) >> vec3u(8u)) / 16777216.0;
-    return a - b;
+    let word = hash(vec3u(pixel, 0u));
+    return (vec3f(word >> vec3u(16u)) - vec3f(word & vec3u(0xffffu))) / 65536.0;
 }
 
 // Veiling luminance falls as E/θ² about a bright source and as E/θ³ farther off (CIE 146 has 10/θ³ + 5/θ² with θ in
@@ -84,7 +84,12 @@ fn tone(@builtin(global_invocation_id) id: vec3u) {
         case 2u: { shown = aces(balanced); }
         default: { shown = agx(balanced); }
     }
-    var bytes = 255.0 * srgb_encode(shown);
+    if CURVE == 3u {
+        shown = srgb_of_gamma_22(shown);
+    } else {
+        shown = srgb_encode(shown);
+    }
+    var bytes = 255.0 * shown;
     if tone_settings.dither == 1u && seen {
         bytes += dither_noise(tone_settings.origin_px + id.xy);
     }

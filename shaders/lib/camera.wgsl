@@ -3,14 +3,12 @@ import package::lib::geometry::PI;
 
 struct Camera {
     right: vec3f,
-    // 0 perspective, 1 fisheye equidistant, 2 equisolid, 3 stereographic, 4 equirectangular, 5 cubemap.
-    projection: u32,
-    up: vec3f,
     // Perspective: tangent of half the vertical field of view. Fisheye: half the field of view, radians.
     half_field: f32,
-    forward: vec3f,
+    up: vec3f,
     // Angle that one pixel spans at the centre, radians.
     pixel_angle: f32,
+    forward: vec3f,
     size_px: vec2f,
 }
 
@@ -20,9 +18,11 @@ struct Sight {
     seen: bool,
 }
 
-fn sight_at(camera: Camera, pixel: vec2f) -> Sight {
+// `projection`: 0 perspective, 1 fisheye equidistant, 2 equisolid, 3 stereographic, 4 equirectangular, 5 cubemap;
+// constant where it is called, since a software device runs all branches.
+fn sight_at(camera: Camera, projection: u32, pixel: vec2f) -> Sight {
     let ndc = vec2f(2.0, -2.0) * (pixel / camera.size_px - 0.5);
-    switch camera.projection {
+    switch projection {
         case 0u: {
             let at = ndc * camera.half_field * vec2f(camera.size_px.x / camera.size_px.y, 1.0);
             return Sight(normalize(camera.forward + at.x * camera.right + at.y * camera.up), true);
@@ -40,11 +40,11 @@ fn sight_at(camera: Camera, pixel: vec2f) -> Sight {
             let at = ndc * camera.size_px / min(camera.size_px.x, camera.size_px.y);
             let radius = length(at);
             var angle = radius * camera.half_field;
-            if camera.projection == 2u {
+            if projection == 2u {
                 // Drivers' asin may be off by 1e-4, half a pixel of a large frame; their atan2 is exact.
                 let sine = min(radius * sin(0.5 * camera.half_field), 1.0);
                 angle = 2.0 * atan2(sine, sqrt(1.0 - sine * sine));
-            } else if camera.projection == 3u {
+            } else if projection == 3u {
                 angle = 2.0 * atan(radius * tan(0.5 * camera.half_field));
             }
             let across = at / max(radius, 1e-9);

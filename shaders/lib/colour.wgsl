@@ -36,8 +36,7 @@ fn aces(c: vec3f) -> vec3f {
 }
 
 // AgX (Sobotka 2022): primaries drawn in, sixteen and a half stops of log, one S-curve (Wrensch's polynomial fit),
-// primaries drawn out. The curve gives display values of gamma 2.2; they are made linear again for the exact sRGB
-// curve after it.
+// primaries drawn out. The curve gives display values of gamma 2.2.
 const AGX_POWER = 1.1;
 const AGX_SATURATION = 1.25;
 
@@ -60,5 +59,13 @@ fn agx(c: vec3f) -> vec3f {
     let curve = 15.5 * x4 * x2 - 40.14 * x4 * x + 31.96 * x4 - 6.868 * x2 * x + 0.4298 * x2 + 0.1191 * x - 0.00232;
     let steep = pow(max(curve, vec3f(0.0)), vec3f(AGX_POWER));
     let graded = max(mix(vec3f(dot(LUMA, steep)), steep, AGX_SATURATION), vec3f(0.0));
-    return pow(clamp(outset * graded, vec3f(0.0), vec3f(1.0)), vec3f(2.2));
+    return clamp(outset * graded, vec3f(0.0), vec3f(1.0));
+}
+
+// sRGB of v^2.2: one power, and at its foot, 12.92 v^2.2 by the cubic with its value and slope at the foot's end and at
+// zero (off by 0.1 of 255 at most).
+fn srgb_of_gamma_22(v: vec3f) -> vec3f {
+    let high = 1.055 * pow(v, vec3f(2.2 / 2.4)) - 0.055;
+    let low = v * v * (6.123 + 21.05 * v);
+    return select(high, low, v <= vec3f(0.07275));
 }

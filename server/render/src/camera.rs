@@ -27,38 +27,45 @@ pub(crate) fn axes(camera: &Camera) -> [DVec3; 3] {
 #[derive(Clone, Debug, ShaderType)]
 pub(crate) struct CameraUniform {
     pub(crate) right: Vec3,
-    pub(crate) projection: u32,
-    pub(crate) up: Vec3,
     pub(crate) half_field: f32,
-    pub(crate) forward: Vec3,
+    pub(crate) up: Vec3,
     pub(crate) pixel_angle: f32,
+    pub(crate) forward: Vec3,
     pub(crate) size_px: Vec2,
+}
+
+/// The projection as `sight_at` numbers it.
+pub(crate) const fn projection_code(projection: &Projection) -> u32 {
+    match projection {
+        Projection::Perspective { .. } => 0,
+        Projection::Fisheye { mapping, .. } => match mapping {
+            FisheyeMapping::Equidistant => 1,
+            FisheyeMapping::Equisolid => 2,
+            FisheyeMapping::Stereographic => 3,
+        },
+        Projection::Equirectangular {} => 4,
+        Projection::Cubemap {} => 5,
+    }
 }
 
 impl CameraUniform {
     pub(crate) fn new(camera: &Camera, size_px: UVec2) -> Self {
         let [right, up, forward] = axes(camera);
         let (width, height) = (f64::from(size_px.x), f64::from(size_px.y));
-        let (projection, half_field, pixel_angle) = match camera.projection {
+        let (half_field, pixel_angle) = match camera.projection {
             Projection::Perspective { vertical_fov_deg } => {
                 let half = (vertical_fov_deg.to_radians() / 2.0).tan();
-                (0, half, 2.0 * half / height)
+                (half, 2.0 * half / height)
             }
-            Projection::Fisheye { fov_deg, mapping } => {
+            Projection::Fisheye { fov_deg, .. } => {
                 let half = fov_deg.to_radians() / 2.0;
-                let code = match mapping {
-                    FisheyeMapping::Equidistant => 1,
-                    FisheyeMapping::Equisolid => 2,
-                    FisheyeMapping::Stereographic => 3,
-                };
-                (code, half, 2.0 * half / width.min(height))
+                (half, 2.0 * half / width.min(height))
             }
-            Projection::Equirectangular {} => (4, 0.0, PI / height),
-            Projection::Cubemap {} => (5, 0.0, PI / 2.0 / height),
+            Projection::Equirectangular {} => (0.0, PI / height),
+            Projection::Cubemap {} => (0.0, PI / 2.0 / height),
         };
         Self {
             right: right.as_vec3(),
-            projection,
             up: up.as_vec3(),
             half_field: narrow(half_field),
             forward: forward.as_vec3(),

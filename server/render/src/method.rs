@@ -1,6 +1,9 @@
 //! How the scene's method is carried out: which variants of the shaders, and how many steps.
 
-use crate::uniforms::AirUniform;
+use crate::{
+    camera::projection_code,
+    uniforms::{AirUniform, Standpoint},
+};
 use welkin_scene::{Method, Quality, Scene};
 
 /// Steps of an integral to the sun where the scene does not say: within 0.01 % for the Earth from a table's entry.
@@ -26,6 +29,10 @@ pub(crate) struct Plan {
     /// True where orders beyond the first count.
     pub(crate) multiple: bool,
     pub(crate) haze: bool,
+    /// True where the upper air's own light can be seen.
+    pub(crate) airglow: bool,
+    /// As `sight_at` numbers it.
+    pub(crate) projection: u32,
     view_steps: Option<u32>,
     sun_steps: Option<u32>,
 }
@@ -37,6 +44,8 @@ impl Plan {
             method: chosen.map_or(Method::Lut, |air| air.method),
             multiple: air.multiple > 0.0,
             haze: air.haze_extinction_per_m > 0.0,
+            airglow: chosen.is_some_and(|air| air.airglow.is_some()) && !is_day(scene),
+            projection: projection_code(&scene.camera.projection),
             view_steps: chosen.and_then(|air| air.view_steps),
             sun_steps: chosen.and_then(|air| air.sun_steps),
         }
@@ -103,4 +112,17 @@ impl Plan {
             Method::Nested => 2.0,
         }
     }
+}
+
+/// Sine of the sun's elevation from which on the sky is a million times brighter than airglow: 3°.
+const DAY_SINE: f64 = 0.052;
+
+/// True in the light of day: not in space, where the night side may be in view.
+fn is_day(scene: &Scene) -> bool {
+    let stand = Standpoint::new(scene);
+    let inside = scene
+        .atmosphere
+        .as_ref()
+        .is_some_and(|air| stand.altitude_m < 0.5 * air.top_m);
+    inside && stand.up.dot(stand.sun) > DAY_SINE
 }

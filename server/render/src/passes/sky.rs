@@ -111,6 +111,8 @@ impl Sky {
         let flag = |on: bool| f64::from(u8::from(on));
         let mut constants = vec![
             ("METHOD", inputs.plan.method_code()),
+            ("PROJECTION", f64::from(inputs.plan.projection)),
+            ("AIRGLOW", flag(inputs.plan.airglow)),
             ("MOON", flag(inputs.moon.is_some())),
             ("MOONLIGHT", flag(moon_sky_view.is_some())),
         ];

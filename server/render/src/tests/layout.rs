@@ -199,11 +199,10 @@ fn camera() {
         f,
         CameraUniform {
             right: vec3,
-            projection: u32,
-            up: vec3,
             half_field: f32,
-            forward: vec3,
+            up: vec3,
             pixel_angle: f32,
+            forward: vec3,
             size_px: vec2,
         }
     );
