@@ -122,11 +122,10 @@ fn multi_scattering_point(air: Air, texel: vec2u, size: vec2u) -> MultiScatterin
     return MultiScatteringPoint(floor_m + y * y * (air.top_m - floor_m), mu_s, false);
 }
 
-// Sky view, seen from one altitude. x is the azimuth from the sun over π: the sky is even in it. The lower half of the
-// rows holds rays to the ground by the root of the distance beyond that to the nadir, which is even in angle about the
-// nadir, the upper half rays to space by the square root of the angle
-// over the horizon; no row belongs to both, so nothing bleeds over the horizon. Seen from outside, the upper half
-// spans only the air over the limb.
+// Sky view, seen from one altitude. x is the azimuth from the sun over π: the sky is even in it. The lower rows hold rays
+// to the ground by the root of the distance beyond that to the nadir, which is even in angle about the nadir; the upper
+// ones rays to space by the root of the angle over the horizon. No row belongs to both, so nothing bleeds over the
+// horizon. Seen from outside, the upper rows span only the air over the limb.
 struct SkyViewRay {
     azimuth: f32,
     zenith_angle: f32,
@@ -142,16 +141,21 @@ fn least_zenith_angle(radius_m: f32, top_m: f32, altitude_m: f32) -> f32 {
     return edge_zenith_angle(radius_m + top_m, altitude_m - top_m);
 }
 
+// Rows of rays to the ground; light is smoother there than over the horizon.
+fn ground_rows(rows: u32) -> u32 {
+    return rows * 3u / 8u;
+}
+
 fn sky_view_ray(radius_m: f32, top_m: f32, altitude_m: f32, texel: vec2u, size: vec2u) -> SkyViewRay {
-    let half_rows = size.y / 2u;
+    let below = ground_rows(size.y);
     let azimuth = PI * texel_to_unit(texel.x, size.x);
     let horizon = edge_zenith_angle(radius_m, altitude_m);
-    if texel.y >= half_rows {
-        let y = texel_to_unit(texel.y - half_rows, half_rows);
+    if texel.y >= below {
+        let y = texel_to_unit(texel.y - below, size.y - below);
         let least = least_zenith_angle(radius_m, top_m, altitude_m);
         return SkyViewRay(azimuth, horizon - y * y * (horizon - least), false, 0.0);
     }
-    let y = texel_to_unit(texel.y, half_rows);
+    let y = texel_to_unit(texel.y, below);
     let squared = horizon_distance_squared(radius_m, altitude_m);
     let d = altitude_m + y * y * (sqrt(squared) - altitude_m);
     // From R² = r² + d² + 2 r d mu follows 1 + mu = (d - h)(2R + h - d) / (2 r d). The half angle of the nadir's side by
@@ -165,15 +169,16 @@ fn sky_view_ray(radius_m: f32, top_m: f32, altitude_m: f32, texel: vec2u, size: 
 }
 
 fn sky_view_coordinate(radius_m: f32, top_m: f32, altitude_m: f32, ray: SkyViewRay, size: vec2u) -> vec2f {
-    let half_rows = size.y / 2u;
+    let below = ground_rows(size.y);
+    let share = f32(below) / f32(size.y);
     let x = unit_to_coordinate(ray.azimuth / PI, size.x);
     if ray.ground {
         let farthest = sqrt(horizon_distance_squared(radius_m, altitude_m));
         let y = sqrt(max(ray.distance_m - altitude_m, 0.0) / max(farthest - altitude_m, 1e-3));
-        return vec2f(x, 0.5 * unit_to_coordinate(y, half_rows));
+        return vec2f(x, share * unit_to_coordinate(y, below));
     }
     let horizon = edge_zenith_angle(radius_m, altitude_m);
     let least = least_zenith_angle(radius_m, top_m, altitude_m);
     let y = sqrt(clamp((horizon - ray.zenith_angle) / (horizon - least), 0.0, 1.0));
-    return vec2f(x, 0.5 + 0.5 * unit_to_coordinate(y, half_rows));
+    return vec2f(x, share + (1.0 - share) * unit_to_coordinate(y, size.y - below));
 }

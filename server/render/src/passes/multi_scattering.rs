@@ -46,15 +46,11 @@ impl Wanted {
             .haze
             .as_ref()
             .map_or(0.0, |haze| haze.extinction() * haze.top_m);
-        // Light goes through a depth τ of haze in about τ² scatterings, most of which change it little; and between
-        // white ground and air it goes back and forth.
-        let in_haze = [(0.5, 5), (2.0, 10), (8.0, 18)]
+        // Light goes through a depth τ of haze in about τ² scatterings, most of which change it little.
+        let orders = [(0.5, 6), (2.0, 10), (8.0, 18)]
             .into_iter()
             .find(|(depth, _)| haze_depth < *depth)
             .map_or(32, |(_, orders)| orders);
-        let brightest = scene.planet.ground_albedo.into_iter().fold(0.0, f64::max);
-        let over_ground = if brightest > 0.5 { 9 } else { 5 };
-        let orders = over_ground.max(in_haze);
         Self {
             quality,
             multiple,
