@@ -2,10 +2,13 @@
 import package::lib::airglow::{Airglow, airglow_radiance};
 import package::lib::air::Air;
 import package::lib::camera::{Camera, sight_at};
-import package::lib::geometry::{PI, angle_between, distance_to_sphere, edge_zenith_angle, horizon_distance_squared};
+import package::lib::geometry::{
+    PI, angle_if_near, angle_of_cosine, distance_to_sphere, edge_zenith_angle, horizon_distance_squared,
+};
 import package::lib::light::{View, disc_radiance, ground_radiance, scattered_radiance};
 import package::lib::moon::{Moon, corona, moon_radiance, place_on_moon};
 import package::lib::scattering::{March, Scattered, scatter_along};
+import package::lib::source::cosine_of_azimuth;
 import package::lib::tables::{SkyViewRay, light_from_table, sky_view_coordinate, least_zenith_angle};
 import package::lib::view_ray::{Observer, enter_air};
 
@@ -78,14 +81,14 @@ const DISC_PLACES = 12;
 // Mean radiance of the sun's disc over a pixel, so that a frame holds the sun's irradiance however large its pixels
 // are. A disc that is smaller than a pixel is drawn as large as a pixel and as much fainter.
 fn disc_in_pixel(place: vec2f, direction: vec3f) -> vec3f {
-    let angle = angle_between(direction, view.sun);
+    let angle = angle_if_near(direction, view.sun);
     // Nowhere in any projection is a pixel far larger than at the centre.
     if view.disc == 0.0 || view.sun_angular_radius <= 0.0 || angle > view.sun_angular_radius + 4.0 * camera.pixel_angle {
         return vec3f(0.0);
     }
     // From the centre to the corners; not quite, since a cubemap's next face begins there.
-    let falling = angle_between(direction, sight_at(camera, PROJECTION, place + vec2f(0.49, 0.49)).direction);
-    let rising = angle_between(direction, sight_at(camera, PROJECTION, place + vec2f(0.49, -0.49)).direction);
+    let falling = angle_if_near(direction, sight_at(camera, PROJECTION, place + vec2f(0.49, 0.49)).direction);
+    let rising = angle_if_near(direction, sight_at(camera, PROJECTION, place + vec2f(0.49, -0.49)).direction);
     let reach = max(falling, rising);
     let alpha = max(view.sun_angular_radius, reach);
     if angle + 3.0 * reach < alpha && !(MOON && moon.sun_left < 1.0) {
@@ -95,8 +98,8 @@ fn disc_in_pixel(place: vec2f, direction: vec3f) -> vec3f {
     for (var i = 0; i < DISC_PLACES * DISC_PLACES; i++) {
         let at = (vec2f(f32(i % DISC_PLACES), f32(i / DISC_PLACES)) + 0.5) / f32(DISC_PLACES) - 0.5;
         let towards = sight_at(camera, PROJECTION, place + at).direction;
-        let hidden = MOON && alpha == view.sun_angular_radius && angle_between(towards, moon.direction) < moon.angular_radius;
-        sum += select(1.0, 0.0, hidden) * disc_radiance(view, alpha, angle_between(towards, view.sun));
+        let hidden = MOON && alpha == view.sun_angular_radius && angle_if_near(towards, moon.direction) < moon.angular_radius;
+        sum += select(1.0, 0.0, hidden) * disc_radiance(view, alpha, angle_if_near(towards, view.sun));
     }
     // Drawn larger than it is, the sun loses by its share.
     let left = select(1.0, moon.sun_left, MOON && alpha > view.sun_angular_radius);
@@ -110,12 +113,12 @@ const FACE_PLACES = 500.0;
 
 // Mean radiance of the moon's disc over a pixel, as that of the sun's.
 fn moon_in_pixel(place: vec2f, direction: vec3f) -> vec3f {
-    let angle = angle_between(direction, moon.direction);
+    let angle = angle_if_near(direction, moon.direction);
     if moon.disc == 0.0 || moon.angular_radius <= 0.0 || angle > moon.angular_radius + 4.0 * camera.pixel_angle {
         return vec3f(0.0);
     }
-    let falling = angle_between(direction, sight_at(camera, PROJECTION, place + vec2f(0.49, 0.49)).direction);
-    let rising = angle_between(direction, sight_at(camera, PROJECTION, place + vec2f(0.49, -0.49)).direction);
+    let falling = angle_if_near(direction, sight_at(camera, PROJECTION, place + vec2f(0.49, 0.49)).direction);
+    let rising = angle_if_near(direction, sight_at(camera, PROJECTION, place + vec2f(0.49, -0.49)).direction);
     let reach = max(falling, rising);
     let alpha = max(moon.angular_radius, reach);
     let fainter = sin(0.5 * moon.angular_radius) / sin(0.5 * alpha);
@@ -132,24 +135,22 @@ fn moon_in_pixel(place: vec2f, direction: vec3f) -> vec3f {
 
 // The corona about the moon, once the rest of the sun no longer outshines it.
 fn corona_towards(direction: vec3f) -> vec3f {
-    let hidden = angle_between(direction, moon.direction) < moon.angular_radius;
+    let hidden = angle_if_near(direction, moon.direction) < moon.angular_radius;
     if view.disc == 0.0 || view.sun_angular_radius <= 0.0 || moon.sun_left > 0.01 || hidden {
         return vec3f(0.0);
     }
-    return (1.0 - moon.sun_left / 0.01) * corona(view.sun_irradiance, view.sun_angular_radius, angle_between(direction, view.sun));
+    return (1.0 - moon.sun_left / 0.01) * corona(view.sun_irradiance, view.sun_angular_radius, angle_if_near(direction, view.sun));
 }
 
-// Angle along the horizon between a direction and a light, by the parts across the zenith.
-fn azimuth_from(light: View, direction: vec3f, mu: f32) -> f32 {
-    let across = direction - mu * light.up;
-    let across_light = light.sun - light.mu_s * light.up;
-    // At the zenith there is no azimuth and any will do, but atan2(0, 0) is undefined.
-    return atan2(length(cross(across, across_light)), dot(across, across_light) + 1e-20);
+// Angle along the horizon between a direction and a light, of cosines with the zenith and with each other. At the zenith
+// there is no azimuth and any will do.
+fn azimuth_from(light: View, mu: f32, nu: f32) -> f32 {
+    return angle_of_cosine(cosine_of_azimuth(mu, light.mu_s, nu));
 }
 
 // Radiance that the air scatters of the moon's light.
 fn moonlight_in_air(direction: vec3f, mu: f32, zenith_angle: f32, ground: bool, distance_m: f32) -> vec3f {
-    let azimuth = azimuth_from(moon_view, direction, mu);
+    let azimuth = azimuth_from(moon_view, mu, clamp(dot(direction, moon_view.sun), -1.0, 1.0));
     let light = light_in_table(moon_sky_view_table, SkyViewRay(azimuth, zenith_angle, ground, distance_m));
     return scattered_radiance(air, moon_view, light, clamp(dot(direction, moon_view.sun), -1.0, 1.0));
 }
@@ -159,49 +160,49 @@ const ENDLESS_M = 1e12;
 
 fn radiance_towards(direction: vec3f, disc: vec3f) -> vec3f {
     let mu = dot(direction, view.up);
-    let zenith_angle = angle_between(direction, view.up);
+    let zenith_angle = angle_of_cosine(mu);
     let nu = clamp(dot(direction, view.sun), -1.0, 1.0);
-    let azimuth = azimuth_from(view, direction, mu);
+    let azimuth = azimuth_from(view, mu, nu);
     let horizon = edge_zenith_angle(air.radius_m, view.altitude_m);
     // Share of the pixel above the horizon, for an even edge.
     let above = clamp(0.5 + (horizon - zenith_angle) / camera.pixel_angle, 0.0, 1.0);
+    let met_m = distance_to_sphere(air.radius_m, view.altitude_m, mu);
+    let edge_m = sqrt(horizon_distance_squared(air.radius_m, view.altitude_m));
+    // One side of the horizon, and where the pixel lies on it the other as well: a loop, since a software device runs
+    // both sides of a branch.
     var sum = vec3f(0.0);
-    if above > 0.0 {
-        let angle = min(zenith_angle, horizon);
-        var depth = vec3f(0.0);
-        if angle >= least_zenith_angle(air.radius_m, air.top_m, view.altitude_m) {
-            // Beyond the horizon the ray is turned up to it.
-            let light = light_in_air(SkyViewRay(azimuth, angle, false, 0.0), select(mu, cos(angle), zenith_angle > angle), nu);
-            depth = light.optical_depth;
-            sum += above * scattered_radiance(air, view, light, nu);
+    for (var side = 0u; side < select(1u, 2u, above > 0.0 && above < 1.0); side++) {
+        let ground = (above < 0.5) != (side == 1u);
+        let share = select(above, 1.0 - above, ground);
+        // A ray that belongs to the other side is turned to the horizon.
+        let turned = ground != (met_m >= 0.0);
+        let ray_mu = select(mu, cos(horizon), turned);
+        let ray_angle = select(min(zenith_angle, horizon), zenith_angle, ground);
+        let distance_m = select(select(met_m, edge_m, turned), ENDLESS_M, !ground);
+        var light: Scattered;
+        var in_air = vec3f(0.0);
+        if ground || ray_angle >= least_zenith_angle(air.radius_m, air.top_m, view.altitude_m) {
+            light = light_in_air(SkyViewRay(azimuth, ray_angle, ground, distance_m), ray_mu, nu);
+            in_air = scattered_radiance(air, view, light, nu);
             if MOONLIGHT {
-                sum += above * moonlight_in_air(direction, mu, angle, false, 0.0);
+                in_air += moonlight_in_air(direction, mu, ray_angle, ground, distance_m);
             }
         }
-        sum += above * exp(-depth) * disc;
+        var behind = disc;
+        if ground {
+            behind = ground_radiance(air, view, nu, distance_m, transmittance_table, irradiance_table, linear_clamp);
+            if AIRGLOW {
+                behind += air.ground_albedo / PI * glow.ground_irradiance;
+            }
+            if MOONLIGHT {
+                let nu_moon = clamp(dot(direction, moon_view.sun), -1.0, 1.0);
+                behind += ground_radiance(air, moon_view, nu_moon, distance_m, transmittance_table, irradiance_table, linear_clamp);
+            }
+        }
         if AIRGLOW {
-            sum += above * airglow_radiance(glow, air.radius_m, view.altitude_m, mu, ENDLESS_M, depth);
+            in_air += airglow_radiance(glow, air.radius_m, view.altitude_m, mu, distance_m, light.optical_depth);
         }
-    }
-    if above < 1.0 {
-        // The edge of the sphere where the pixel's centre is just above it.
-        let met_m = distance_to_sphere(air.radius_m, view.altitude_m, mu);
-        let edge_m = sqrt(horizon_distance_squared(air.radius_m, view.altitude_m));
-        let distance_m = select(met_m, edge_m, met_m < 0.0);
-        let light = light_in_air(SkyViewRay(azimuth, zenith_angle, true, distance_m), select(mu, cos(horizon), met_m < 0.0), nu);
-        let left = exp(-light.optical_depth);
-        var ground = ground_radiance(air, view, nu, distance_m, transmittance_table, irradiance_table, linear_clamp);
-        var between = scattered_radiance(air, view, light, nu);
-        if AIRGLOW {
-            ground += air.ground_albedo / PI * glow.ground_irradiance;
-            between += airglow_radiance(glow, air.radius_m, view.altitude_m, mu, distance_m, light.optical_depth);
-        }
-        if MOONLIGHT {
-            let nu_moon = clamp(dot(direction, moon_view.sun), -1.0, 1.0);
-            ground += ground_radiance(air, moon_view, nu_moon, distance_m, transmittance_table, irradiance_table, linear_clamp);
-            between += moonlight_in_air(direction, mu, zenith_angle, true, distance_m);
-        }
-        sum += (1.0 - above) * (between + left * ground);
+        sum += share * (in_air + exp(-light.optical_depth) * behind);
     }
     return sum;
 }
@@ -222,7 +223,7 @@ fn sky(@builtin(global_invocation_id) id: vec3u) {
             disc += moon.sun_disc_scale * corona_towards(sight.direction);
             glaring = select(view.sun, moon.direction, moon.glares == 1.0);
         }
-        value = vec4f(radiance_towards(sight.direction, disc), 1.0 + angle_between(sight.direction, glaring));
+        value = vec4f(radiance_towards(sight.direction, disc), 1.0 + angle_if_near(sight.direction, glaring));
     }
     radiance[id.y * tile.size_px.x + id.x] = value;
 }

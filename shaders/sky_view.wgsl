@@ -30,7 +30,7 @@ fn sky_view(@builtin(global_invocation_id) id: vec3u) {
     let entry = enter_air(air, observer, mu, clamp(nu, -1.0, 1.0), ray.ground, ray.distance_m);
     var light: Scattered;
     if entry.length_m > 0.0 {
-        light = scatter_along(air, entry, transmittance_table, source_table, linear_clamp, March(true, MULTIPLE, HAZE, false, observer.steps, 4u, 0u));
+        light = scatter_along(air, entry, transmittance_table, source_table, linear_clamp, March(true, MULTIPLE, HAZE, false, observer.steps, 2u, 0u));
     }
     textureStore(table, id.xy, 0, vec4f(light_to_table(light.rayleigh), light.optical_depth.r));
     textureStore(table, id.xy, 1, vec4f(light_to_table(light.mie), light.optical_depth.g));

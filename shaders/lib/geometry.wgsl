@@ -69,6 +69,19 @@ fn edge_zenith_angle(radius_m: f32, altitude_m: f32) -> f32 {
     return 0.5 * PI + atan(sqrt(horizon_distance_squared(radius_m, altitude_m)) / radius_m);
 }
 
+// From its cosine: within 3e-4 at 0 and π, where the cosine is flat, and exact between. Mesa's acos is off by 1e-4.
+fn angle_of_cosine(c: f32) -> f32 {
+    return atan2(sqrt(max((1.0 - c) * (1.0 + c), 0.0)), c);
+}
+
+// Angle between unit vectors that are near each other, from their chord c = 2 sin(θ/2): exact to 1e-6 up to half a
+// radian; less than the angle beyond, 2.5 for π. For discs and glare.
+fn angle_if_near(a: vec3f, b: vec3f) -> f32 {
+    let c = a - b;
+    let square = dot(c, c);
+    return sqrt(square) * (1.0 + square * (1.0 / 24.0 + square * (3.0 / 640.0)));
+}
+
 // Of unit vectors; exact for small angles, where acos of the dot product is not.
 fn angle_between(a: vec3f, b: vec3f) -> f32 {
     return atan2(length(cross(a, b)), dot(a, b));
