@@ -141,9 +141,20 @@ fn least_zenith_angle(radius_m: f32, top_m: f32, altitude_m: f32) -> f32 {
     return edge_zenith_angle(radius_m + top_m, altitude_m - top_m);
 }
 
+// The last row's zenith angle. Seen from outside, a little under the top of the air, so that no row is of rays without
+// air: towards nothing, the root would bend the light too far.
+const OUTERMOST = 0.992;
+
+fn last_zenith_angle(radius_m: f32, top_m: f32, altitude_m: f32) -> f32 {
+    if altitude_m <= top_m {
+        return 0.0;
+    }
+    return least_zenith_angle(radius_m, OUTERMOST * top_m, altitude_m);
+}
+
 // Rows of rays to the ground; light is smoother there than over the horizon.
 fn ground_rows(rows: u32) -> u32 {
-    return rows * 3u / 8u;
+    return rows / 2u;
 }
 
 fn sky_view_ray(radius_m: f32, top_m: f32, altitude_m: f32, texel: vec2u, size: vec2u) -> SkyViewRay {
@@ -152,7 +163,7 @@ fn sky_view_ray(radius_m: f32, top_m: f32, altitude_m: f32, texel: vec2u, size: 
     let horizon = edge_zenith_angle(radius_m, altitude_m);
     if texel.y >= below {
         let y = texel_to_unit(texel.y - below, size.y - below);
-        let least = least_zenith_angle(radius_m, top_m, altitude_m);
+        let least = last_zenith_angle(radius_m, top_m, altitude_m);
         return SkyViewRay(azimuth, horizon - y * y * (horizon - least), false, 0.0);
     }
     let y = texel_to_unit(texel.y, below);
@@ -178,7 +189,7 @@ fn sky_view_coordinate(radius_m: f32, top_m: f32, altitude_m: f32, ray: SkyViewR
         return vec2f(x, share * unit_to_coordinate(y, below));
     }
     let horizon = edge_zenith_angle(radius_m, altitude_m);
-    let least = least_zenith_angle(radius_m, top_m, altitude_m);
+    let least = last_zenith_angle(radius_m, top_m, altitude_m);
     let y = sqrt(clamp((horizon - ray.zenith_angle) / (horizon - least), 0.0, 1.0));
     return vec2f(x, share + (1.0 - share) * unit_to_coordinate(y, size.y - below));
 }

@@ -64,7 +64,7 @@ impl Plan {
     pub(crate) fn sky_view_steps(&self, quality: Quality) -> Steps {
         let usual = match quality {
             Quality::Preview => 24,
-            Quality::Final => 40,
+            Quality::Final => 48,
         };
         Steps {
             view: self.view_steps.unwrap_or(usual),

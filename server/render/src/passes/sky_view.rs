@@ -20,7 +20,7 @@ pub(crate) struct SkyView {
 const fn size(quality: Quality) -> [u32; 2] {
     match quality {
         Quality::Preview => [24, 96],
-        Quality::Final => [40, 224],
+        Quality::Final => [48, 208],
     }
 }
 

@@ -69,7 +69,8 @@ fn the_twin_looks_where_the_shader_looks() {
         let rows: Vec<_> = places(size, DVec2::new(0.3, 0.7))
             .map(|p| [p.x as f32, p.y as f32, code as f32, 0.0, 0.0, 0.0, 0.0, 0.0])
             .collect();
-        let statement = "let s = sight_at(camera, u32(a.z), a.xy); x = vec4f(s.direction, select(0.0, 1.0, s.seen));";
+        let statement =
+            "let s = sight_at(camera, u32(a.z), a.xy); x = vec4f(s.direction, select(0.0, 1.0, s.seen));";
         let binds = [(2, uniform.as_entire_binding())];
         for (row, found) in rows
             .iter()

@@ -108,7 +108,7 @@ fn sky_view_texels_come_back() {
             let centre = [(row[0] + 0.5) / width as f32, (row[1] + 0.5) / height as f32];
             assert!((place[0] - centre[0]).abs() < 1e-6, "{row:?} {ray:?} {place:?}");
             // On the ground no ray below the horizon has a length: all its rows are one.
-            if altitude_m == 0.0 && row[1] < 96.0 {
+            if altitude_m == 0.0 && row[1] < 128.0 {
                 continue;
             }
             let texels = f64::from((place[1] - centre[1]).abs()) * f64::from(height);
@@ -121,11 +121,11 @@ fn sky_view_texels_come_back() {
             } else {
                 1.6
             };
-            let y = (f64::from(row[1]) - 96.0) / 159.0;
+            let y = (f64::from(row[1]) - 128.0) / 127.0;
             let rounding = if y < 0.0 {
                 0.0
             } else {
-                159.0 * ((y * y + 5e-7 / span).sqrt() - y)
+                127.0 * ((y * y + 5e-7 / span).sqrt() - y)
             };
             assert!(
                 texels < 0.05 + rounding,
