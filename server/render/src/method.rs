@@ -13,7 +13,7 @@ const NESTED_SUN_STEPS: u32 = 32;
 /// Steps of view where each pixel has its own ray.
 const PIXEL_STEPS: u32 = 48;
 /// Steps of the probe's rays.
-const PROBE_STEPS: u32 = 256;
+const PROBE_STEPS: u32 = 384;
 
 /// Steps along each ray of view, and along each ray to the sun.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]

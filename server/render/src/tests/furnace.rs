@@ -200,9 +200,10 @@ fn an_order_of_scattering_keeps_what_does_not_leave_for_space() {
     let gpu = &engine.gpu;
     let scene = white_planet(conservative());
     let part = Part::new(&AirUniform::new(&scene));
-    let (width, height, cosines, views) = (16_u32, 24_u32, 12_u32, 96_u32);
+    let (width, height, angles, views) = (16_u32, 24_u32, 12_u32, 96_u32);
     let light = even_table(gpu, [width, height], &[1.0; 96]);
-    let ground = even_table(gpu, [width, 1], &[PI as f32]);
+    // Tables hold fourth roots of light.
+    let ground = even_table(gpu, [width, 1], &[PI.powf(0.25) as f32]);
     let (new_light, new_ground) = (
         gpu.table("light", width, height, views),
         gpu.table("ground", width, 1, 1),
@@ -236,8 +237,8 @@ fn an_order_of_scattering_keeps_what_does_not_leave_for_space() {
     let mu: Vec<f64> = rows
         .iter()
         .map(|row| {
-            let s = 2.0 * f64::from(*row) / f64::from(cosines - 1) - 1.0;
-            s * s.abs()
+            let s = 2.0 * f64::from(*row) / f64::from(angles - 1) - 1.0;
+            (PI / 2.0 * (1.0 - s * (0.3 + 0.7 * s.abs()))).cos()
         })
         .collect();
     let expected: Vec<_> = (0..height)
@@ -251,18 +252,19 @@ fn an_order_of_scattering_keeps_what_does_not_leave_for_space() {
         for (i, texel) in read_table(gpu, &new_light, 8 * row + 3).iter().enumerate() {
             let expected = expected[i / width as usize][at];
             for c in 0..3 {
-                worst = worst.max((f64::from(texel[c]) - expected[c]).abs());
+                worst = worst.max((f64::from(texel[c]).powi(4) - expected[c]).abs());
             }
         }
     }
     let (_, falling) = open_sky(&scene, 0.0);
     for texel in read_table(gpu, &new_ground, 0) {
         for c in 0..3 {
-            let total = (f64::from(texel[c]) + falling[c]) / PI;
+            let total = (f64::from(texel[c]).powi(4) + falling[c]) / PI;
             worst_ground = worst_ground.max((total - 1.0).abs());
         }
     }
     println!("one order: worst {worst:.1e} in the air, {worst_ground:.1e} on the ground");
+    // Measured 0.4 % and 0.8 %: eight nodes from the horizon up or down, and 20 steps on the longest rays, resolve T so.
     assert!(worst < 0.008 && worst_ground < 0.01, "{worst} {worst_ground}");
 }
 
