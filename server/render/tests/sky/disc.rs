@@ -1,6 +1,6 @@
 //! The sun's disc: its energy, size, limb and absence.
 
-use crate::scenes::{Rgb, empty_space, luma, radiance, scene, seen};
+use crate::scenes::{Rgb, empty_space, luma, probe, radiance, scene, seen};
 use serde_json::{Value, json};
 use std::f64::consts::PI;
 use welkin_scene::{Quality, Scene};
@@ -13,8 +13,11 @@ fn sunny(sun: Value, camera: Value) -> Scene {
     scene
 }
 
+/// Of a pixel by the place of its centre in the frame, sr.
+type SolidAngle<'a> = &'a dyn Fn(f64, f64) -> f64;
+
 /// Irradiance that a frame of the sun adds up to: Σ radiance × solid angle of the pixel.
-fn total(scene: &Scene, (width, height): (u32, u32), solid_angle_sr: &dyn Fn(f64, f64) -> f64) -> Rgb {
+fn total(scene: &Scene, (width, height): (u32, u32), solid_angle_sr: SolidAngle<'_>) -> Rgb {
     let frame = radiance(scene, width, height, Quality::Preview);
     frame.pixels().fold([0.0; 3], |sum, (x, y, c)| {
         let sr = solid_angle_sr(x as f64 + 0.5, y as f64 + 0.5);
@@ -32,6 +35,13 @@ fn perspective_sr(fov_deg: f64, (width, height): (u32, u32)) -> impl Fn(f64, f64
         );
         (1.0 + x * x + y * y).powf(-1.5) / (f * f)
     }
+}
+
+/// Of a pixel of a cubemap whose faces are so high.
+fn cubemap_sr(height: u32, x: f64, y: f64) -> f64 {
+    let s = 2.0 * (x / f64::from(height)).fract() - 1.0;
+    let t = 2.0 * y / f64::from(height) - 1.0;
+    (1.0 + s * s + t * t).powf(-1.5) * 4.0 / f64::from(height * height)
 }
 
 /// From a disc that fills much of the picture to one that is a tenth of a pixel: maps of the environment are coarse, and
@@ -83,12 +93,40 @@ fn an_environment_map_holds_the_suns_irradiance() {
             let sr = |_: f64, y: f64| ((0.5 - y / f64::from(height)) * PI).cos() * side * side;
             same_as_sun(total(&equirectangular, (2 * height, height), &sr), &case);
             let cubemap = sunny(sun, json!({"projection": {"kind": "cubemap"}}));
-            let sr = |x: f64, y: f64| {
-                let s = 2.0 * (x / f64::from(height)).fract() - 1.0;
-                let t = 2.0 * y / f64::from(height) - 1.0;
-                (1.0 + s * s + t * t).powf(-1.5) * 4.0 / f64::from(height * height)
-            };
+            let sr = |x: f64, y: f64| cubemap_sr(height, x, y);
             same_as_sun(total(&cubemap, (6 * height, height), &sr), &case);
+        }
+    }
+}
+
+/// Renderers that sample the sun apart take the map without the disc and the irradiance that the frame tells.
+#[test]
+fn the_disc_of_an_environment_map_is_the_direct_irradiance() {
+    // The air's own change across a coarse pixel counts near the horizon: the disc is dimmed as its pixel's centre.
+    for (azimuth_deg, elevation_deg, height) in [(123.4, 3.0, 1024_u32), (200.1, 35.0, 128)] {
+        let of = |projection: &str, disc: bool| {
+            scene(json!({
+                "sun": {"position": {"azimuth_deg": azimuth_deg, "elevation_deg": elevation_deg}, "disc": disc},
+                "camera": {"projection": {"kind": projection}},
+            }))
+        };
+        let direct = probe(&of("cubemap", true), &[]).irradiance.direct_normal_w_m2;
+        let side = PI / f64::from(height);
+        let equirectangular = |_: f64, y: f64| ((0.5 - y / f64::from(height)) * PI).cos() * side * side;
+        let cubemap = |x: f64, y: f64| cubemap_sr(height, x, y);
+        let maps: [(&str, u32, SolidAngle<'_>); 2] =
+            [("equirectangular", 2, &equirectangular), ("cubemap", 6, &cubemap)];
+        for (projection, wide, sr) in maps {
+            let sum = |disc: bool| total(&of(projection, disc), (wide * height, height), sr);
+            let (with, without) = (sum(true), sum(false));
+            for c in 0..3 {
+                // As in `same_as_sun`.
+                let off = (with[c] - without[c]) / direct[c] - 1.0;
+                assert!(
+                    off.abs() < 0.02,
+                    "{projection}, sun {elevation_deg}°, band {c}: {off}"
+                );
+            }
         }
     }
 }
