@@ -57,7 +57,7 @@ struct Order {
 
 const THREADS = 32u;
 // Directions of view of one thread: of 64 or 96 in all.
-const VIEWS = 3u;
+const VIEWS = 5u;
 // 2 · POLAR · AZIMUTHS of the largest variant.
 const MOST_DIRECTIONS = 160u;
 

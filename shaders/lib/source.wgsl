@@ -9,7 +9,7 @@ import package::lib::tables::{
 };
 
 // Azimuths of view, evenly from 0 to π.
-const VIEW_AZIMUTHS = 8u;
+const VIEW_AZIMUTHS = 12u;
 
 // Cosine of the azimuth between a direction of view and the sun. Where either stands in the zenith any will do.
 fn cosine_of_azimuth(mu: f32, mu_s: f32, nu: f32) -> f32 {

@@ -151,7 +151,10 @@ fn haze(scene: &Scene, at: &str, problems: &mut Problems) {
         problems.push(Problem::new(
             format!("{at}/haze/top_m"),
             &json!(haze.top_m),
-            format!("a number of metres no higher than the air's top, {}", number(air.top_m)),
+            format!(
+                "a number of metres no higher than the air's top, {}",
+                number(air.top_m)
+            ),
         ));
     }
 }

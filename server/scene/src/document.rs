@@ -1,8 +1,8 @@
 //! The scene document.
 
 use crate::{
-    atmosphere::Atmosphere, camera::Camera, display::Display, haze::Haze, moon::Moon, planet::Planet, stars::Stars,
-    sun::Sun,
+    atmosphere::Atmosphere, camera::Camera, display::Display, haze::Haze, moon::Moon, planet::Planet,
+    stars::Stars, sun::Sun,
 };
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};

@@ -51,6 +51,8 @@ pub use planet::Planet;
 pub use preset::{Preset, preset, presets};
 pub use probe::{Irradiance, ProbeAnswer, ProbeRequest, SunPlace};
 pub use problem::{Problem, SceneError};
-pub use schema::{frame_request_schema, metar_answer_schema, metar_request_schema, probe_request_schema, scene_schema};
+pub use schema::{
+    frame_request_schema, metar_answer_schema, metar_request_schema, probe_request_schema, scene_schema,
+};
 pub use stars::{Orientation, Stars};
 pub use sun::{Sun, SunPosition};

@@ -14,7 +14,7 @@ use std::sync::Arc;
 use welkin_scene::{Quality, Scene};
 
 /// Azimuths of view, as in `lib/source.wgsl`.
-const VIEW_AZIMUTHS: u32 = 8;
+const VIEW_AZIMUTHS: u32 = 12;
 
 /// Heights in the haze, as in `lib/tables.wgsl`.
 const HAZE_ROWS: u32 = 16;

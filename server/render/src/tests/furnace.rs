@@ -114,7 +114,7 @@ fn every_ray_through_a_white_furnace_is_white() {
     };
     for air in [conservative(), thick] {
         let part = Part::new(&AirUniform::new(&white_planet(air)));
-        let light = even_table(gpu, [16, 16], &[1.0; 16]);
+        let light = even_table(gpu, [16, 16], &[1.0; 24]);
         let mut recorder = Recorder::new(gpu);
         let transmittance = Transmittance::new(gpu).run(&mut recorder, &part, 64);
         recorder.finish(&[], |_| ()).unwrap();
@@ -200,8 +200,8 @@ fn an_order_of_scattering_keeps_what_does_not_leave_for_space() {
     let gpu = &engine.gpu;
     let scene = white_planet(conservative());
     let part = Part::new(&AirUniform::new(&scene));
-    let (width, height, angles, views) = (16_u32, 24_u32, 12_u32, 96_u32);
-    let light = even_table(gpu, [width, height], &[1.0; 96]);
+    let (width, height, angles, views) = (16_u32, 24_u32, 12_u32, 144_u32);
+    let light = even_table(gpu, [width, height], &[1.0; 144]);
     // Tables hold fourth roots of light.
     let ground = even_table(gpu, [width, 1], &[PI.powf(0.25) as f32]);
     let (new_light, new_ground) = (
@@ -249,7 +249,7 @@ fn an_order_of_scattering_keeps_what_does_not_leave_for_space() {
         .collect();
     for (at, row) in rows.iter().enumerate() {
         // The third azimuth; even light has none.
-        for (i, texel) in read_table(gpu, &new_light, 8 * row + 3).iter().enumerate() {
+        for (i, texel) in read_table(gpu, &new_light, 12 * row + 3).iter().enumerate() {
             let expected = expected[i / width as usize][at];
             for c in 0..3 {
                 worst = worst.max((f64::from(texel[c]).powi(4) - expected[c]).abs());
@@ -264,7 +264,7 @@ fn an_order_of_scattering_keeps_what_does_not_leave_for_space() {
         }
     }
     println!("one order: worst {worst:.1e} in the air, {worst_ground:.1e} on the ground");
-    // Measured 0.4 % and 0.8 %: eight nodes from the horizon up or down, and 20 steps on the longest rays, resolve T so.
+    // Measured 0.5 % and 0.8 %: eight nodes from the horizon up or down, and 20 steps on the longest rays, resolve T so.
     assert!(worst < 0.008 && worst_ground < 0.01, "{worst} {worst_ground}");
 }
 

@@ -261,7 +261,15 @@ fn atmosphere() -> impl Strategy<Value = Atmosphere> {
         option::of(crate::night::airglow()),
     )
         .prop_map(
-            |((method, view_steps, sun_steps, orders), top_m, density_factor, rayleigh, mie, ozone, airglow)| {
+            |(
+                (method, view_steps, sun_steps, orders),
+                top_m,
+                density_factor,
+                rayleigh,
+                mie,
+                ozone,
+                airglow,
+            )| {
                 Atmosphere {
                     method,
                     view_steps,

@@ -54,7 +54,10 @@ async fn a_preview_then_the_final_then_silence() {
     );
     assert!(stats["render_ms"].as_f64().unwrap() >= 0.0 && stats["encode_ms"].as_f64().unwrap() > 0.0);
     assert!(stats["sun"]["elevation_deg"].is_number());
-    assert!(stats["moon"].is_null(), "a sun given as a direction has no moon by itself");
+    assert!(
+        stats["moon"].is_null(),
+        "a sun given as a direction has no moon by itself"
+    );
     assert!(viewer.is_silent().await);
     let orders = fake.orders.lock().unwrap();
     assert_eq!(orders[0].priority, Priority::Interactive);
