@@ -64,6 +64,8 @@ fn scatter_along(
     let groups = max(march.steps / (pieces * march.group), LEAST_STEPS / march.group);
     let piece_steps = groups * march.group;
     var from_m = 0.0;
+    // Transmittance so far: e^{-optical depth}, step by step.
+    var left = vec3f(1.0);
     // At most as many rounds as there are cuts, since each goes to a farther one.
     while from_m < end {
         // The next cut.
@@ -94,8 +96,9 @@ fn scatter_along(
                 let c = coefficients_at(air, h, in_haze);
                 let tau = c.extinction_per_m * dt;
                 // (1 - e^{-τ})/τ, by its series where that cancels.
-                let share = select((1.0 - exp(-tau)) / max(tau, vec3f(1e-6)), 1.0 - 0.5 * tau, tau < vec3f(1e-3));
-                let weight = exp(-sum.optical_depth) * share * dt;
+                let passed = exp(-tau);
+                let share = select((1.0 - passed) / max(tau, vec3f(1e-6)), 1.0 - 0.5 * tau, tau < vec3f(1e-3));
+                let weight = left * share * dt;
                 if march.with_sun && lit {
                     let mu_s = cosine_after(air.radius_m, ray.altitude_m, h, ray.mu_s, ray.nu, t);
                     var depth: vec3f;
@@ -107,13 +110,15 @@ fn scatter_along(
                     if march.with_haze {
                         depth += haze_optical_depth(air, h, mu_s);
                     }
-                    sum.rayleigh += weight * c.rayleigh_per_m * exp(-depth);
-                    sum.mie += weight * c.mie_per_m * exp(-depth);
+                    let lit_weight = weight * exp(-depth);
+                    sum.rayleigh += lit_weight * c.rayleigh_per_m;
+                    sum.mie += lit_weight * c.mie_per_m;
                 }
                 if march.with_source {
                     sum.multiple += weight * (c.rayleigh_per_m + c.mie_per_m) * source;
                 }
                 sum.optical_depth += tau;
+                left *= passed;
                 near = far;
             }
         }

@@ -41,7 +41,10 @@ impl Plan {
     pub(crate) fn new(scene: &Scene, air: &AirUniform) -> Self {
         let chosen = scene.atmosphere.as_ref();
         Self {
-            method: chosen.map_or(Method::Lut, |air| air.method),
+            method: match chosen.map_or(Method::Lut, |air| air.method) {
+                Method::Lut if is_above_haze(scene) => Method::Table,
+                method => method,
+            },
             multiple: air.multiple > 0.0,
             haze: air.haze_extinction_per_m > 0.0,
             airglow: chosen.is_some_and(|air| air.airglow.is_some()) && !is_day(scene),
@@ -112,6 +115,14 @@ impl Plan {
             Method::Nested => 2.0,
         }
     }
+}
+
+/// True for an observer above a haze: seen from there it has an edge that lies between two rows of the sky's table, so
+/// each pixel follows its own ray.
+fn is_above_haze(scene: &Scene) -> bool {
+    let altitude_m = Standpoint::new(scene).altitude_m;
+    let haze = scene.haze.as_ref().filter(|haze| haze.extinction() > 0.0);
+    haze.is_some_and(|haze| altitude_m > haze.top_m)
 }
 
 /// Sine of the sun's elevation from which on the sky is a million times brighter than airglow: 3°.
