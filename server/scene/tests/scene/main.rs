@@ -12,4 +12,5 @@ mod metar_hostile;
 mod night;
 mod properties;
 mod schemas;
+mod strategies;
 mod sun;
