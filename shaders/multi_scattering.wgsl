@@ -27,6 +27,7 @@ import package::lib::transmittance::transmittance_to_space;
 // True for the light that the sun sends. A variant of its own: neither has to pay for the other's work, as a software
 // device runs both sides of every branch.
 override FIRST: bool = true;
+// True where there is haze.
 override HAZE: bool = true;
 // Directions: Gauss-Legendre nodes x on either side of the horizon, bent towards it by mu = mu_h ± Δ x², times azimuths
 // on one side of the sun (the other side is its mirror image).
@@ -56,7 +57,7 @@ struct Order {
 @group(0) @binding(10) var<storage, read> twice_scattered: array<f32>;
 
 const THREADS = 32u;
-// Directions of view of one thread: of 64 or 96 in all.
+// Directions of view of one thread: of 96 or 144 in all.
 const VIEWS = 5u;
 // 2 · POLAR · AZIMUTHS of the largest variant.
 const MOST_DIRECTIONS = 160u;

@@ -9,6 +9,7 @@ import package::lib::view_ray::{Observer, enter_air};
 
 // False for the first order alone.
 override MULTIPLE: bool = true;
+// True where there is haze.
 override HAZE: bool = true;
 // True where the optical depth to the sun is integrated in every step.
 override NESTED: bool = false;

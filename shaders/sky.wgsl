@@ -17,6 +17,7 @@ import package::lib::view_ray::{Observer, enter_air};
 override METHOD: u32 = 0u;
 // False for the first order alone.
 override MULTIPLE: bool = true;
+// True where there is haze.
 override HAZE: bool = true;
 
 // As `sight_at` numbers it.

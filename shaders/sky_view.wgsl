@@ -1,13 +1,13 @@
 // Light in the air, for every direction from one height, for a sun of unit irradiance. The phase functions are left
 // to the reader: without them the table is smooth in azimuth, few columns serve, and the aureole is exact at any zoom.
 import package::lib::air::Air;
-import package::lib::geometry::distance_to_top;
-import package::lib::scattering::{AirRay, March, Scattered, scatter_along};
+import package::lib::scattering::{March, Scattered, scatter_along};
 import package::lib::view_ray::{Observer, enter_air};
 import package::lib::tables::{light_to_table, sky_view_ray};
 
 // False for the first order alone.
 override MULTIPLE: bool = true;
+// True where there is haze.
 override HAZE: bool = true;
 
 @group(0) @binding(0) var<uniform> air: Air;
