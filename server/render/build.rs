@@ -2,7 +2,7 @@
 //! size of its workgroup and its bindings. So the Rust side restates nothing, and a broken shader breaks the build.
 
 use naga::{
-    AddressSpace, ImageClass, ImageDimension, StorageAccess, TypeInner,
+    AddressSpace, ImageClass, ImageDimension, StorageAccess, StorageFormat, TypeInner,
     valid::{Capabilities, ValidationFlags, Validator},
 };
 use std::{error::Error, fmt::Write as _, fs, path::Path};
@@ -62,7 +62,7 @@ fn describe(name: &str, text: &str) -> Result<String, Box<dyn Error>> {
     {
         return Err(format!("{name}.wgsl: bindings must run from 0 without gaps").into());
     }
-    let kinds: Vec<&str> = bindings.iter().map(|(_, kind)| *kind).collect();
+    let kinds: Vec<&str> = bindings.iter().map(|(_, kind)| kind.as_str()).collect();
     Ok(format!(
         "pub(crate) static {}: Shader = Shader {{ name: {name:?}, wgsl: {text:?}, workgroup: {:?}, bindings: &[{}] }};",
         name.to_uppercase(),
@@ -71,24 +71,32 @@ fn describe(name: &str, text: &str) -> Result<String, Box<dyn Error>> {
     ))
 }
 
-fn binding(space: &AddressSpace, inner: &TypeInner) -> Option<&'static str> {
-    Some(match (space, inner) {
-        (AddressSpace::Uniform, _) => "Kind::Uniform",
-        (AddressSpace::Storage { access }, _) if access.contains(StorageAccess::STORE) => "Kind::Write",
-        (AddressSpace::Storage { .. }, _) => "Kind::Read",
-        (_, TypeInner::Sampler { .. }) => "Kind::Sampler",
-        (
-            _,
-            TypeInner::Image {
-                dim: ImageDimension::D2,
-                arrayed,
-                class,
-            },
-        ) => match (class, arrayed) {
-            (ImageClass::Sampled { .. }, false) => "Kind::Table",
-            (ImageClass::Sampled { .. }, true) => "Kind::TableLayers",
-            (ImageClass::Storage { .. }, false) => "Kind::WriteTable",
-            (ImageClass::Storage { .. }, true) => "Kind::WriteTableLayers",
+fn binding(space: &AddressSpace, inner: &TypeInner) -> Option<String> {
+    let TypeInner::Image { dim, arrayed, class } = inner else {
+        return Some(
+            match (space, inner) {
+                (AddressSpace::Uniform, _) => "Kind::Uniform",
+                (AddressSpace::Storage { access }, _) if access.contains(StorageAccess::STORE) => {
+                    "Kind::Write"
+                }
+                (AddressSpace::Storage { .. }, _) => "Kind::Read",
+                (_, TypeInner::Sampler { .. }) => "Kind::Sampler",
+                _ => return None,
+            }
+            .to_owned(),
+        );
+    };
+    let shape = match (dim, arrayed) {
+        (ImageDimension::D2, false) => "Table",
+        (ImageDimension::D2, true) => "TableLayers",
+        (ImageDimension::D3, false) => "Volume",
+        _ => return None,
+    };
+    Some(match class {
+        ImageClass::Sampled { .. } => format!("Kind::{shape}"),
+        ImageClass::Storage { format, .. } => match format {
+            StorageFormat::Rgba32Float => format!("Kind::Write{shape}(Texel::Float)"),
+            StorageFormat::Rgba8Unorm => format!("Kind::Write{shape}(Texel::Byte)"),
             _ => return None,
         },
         _ => return None,

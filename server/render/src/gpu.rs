@@ -1,6 +1,6 @@
 //! The device: its choice, its limits, its buffers and textures, and reading back from it.
 
-use crate::error::Error;
+use crate::{error::Error, shader::Texel};
 use std::sync::{Arc, Mutex, PoisonError, mpsc};
 use welkin_scene::{frame::MAX_SIDE_PX, renderer::DeviceInfo};
 
@@ -24,6 +24,14 @@ pub(crate) struct Gpu {
     /// Nanoseconds a tick, where the device can time its passes.
     pub(crate) timestamp_period_ns: Option<f32>,
     lost: Arc<Mutex<Option<String>>>,
+}
+
+/// How a texture's texels are laid out.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Shape {
+    Flat,
+    Layers,
+    Volume,
 }
 
 fn instance() -> wgpu::Instance {
@@ -193,31 +201,50 @@ impl Gpu {
         buffer
     }
 
+    pub(crate) const fn format(&self, texel: Texel) -> wgpu::TextureFormat {
+        match texel {
+            Texel::Float => self.table_format,
+            Texel::Byte => wgpu::TextureFormat::Rgba8Unorm,
+        }
+    }
+
     /// A table that shaders write and sample. New tables hold zeros.
     pub(crate) fn table(&self, label: &str, width: u32, height: u32, layers: u32) -> wgpu::TextureView {
+        let shape = if layers > 1 { Shape::Layers } else { Shape::Flat };
+        self.written(label, [width, height, layers], shape, Texel::Float)
+    }
+
+    /// A texture that shaders write and sample. New ones hold zeros.
+    pub(crate) fn written(
+        &self,
+        label: &str,
+        [width, height, depth_or_array_layers]: [u32; 3],
+        shape: Shape,
+        texel: Texel,
+    ) -> wgpu::TextureView {
+        let (dimension, seen_as) = match shape {
+            Shape::Flat => (wgpu::TextureDimension::D2, wgpu::TextureViewDimension::D2),
+            Shape::Layers => (wgpu::TextureDimension::D2, wgpu::TextureViewDimension::D2Array),
+            Shape::Volume => (wgpu::TextureDimension::D3, wgpu::TextureViewDimension::D3),
+        };
         let texture = self.device.create_texture(&wgpu::TextureDescriptor {
             label: Some(label),
             size: wgpu::Extent3d {
                 width,
                 height,
-                depth_or_array_layers: layers,
+                depth_or_array_layers,
             },
             mip_level_count: 1,
             sample_count: 1,
-            dimension: wgpu::TextureDimension::D2,
-            format: self.table_format,
+            dimension,
+            format: self.format(texel),
             usage: wgpu::TextureUsages::STORAGE_BINDING
                 | wgpu::TextureUsages::TEXTURE_BINDING
                 | wgpu::TextureUsages::COPY_SRC,
             view_formats: &[],
         });
-        let dimension = if layers > 1 {
-            wgpu::TextureViewDimension::D2Array
-        } else {
-            wgpu::TextureViewDimension::D2
-        };
         texture.create_view(&wgpu::TextureViewDescriptor {
-            dimension: Some(dimension),
+            dimension: Some(seen_as),
             ..wgpu::TextureViewDescriptor::default()
         })
     }

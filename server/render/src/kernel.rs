@@ -3,7 +3,7 @@
 use crate::{
     error::Error,
     gpu::Gpu,
-    shader::{Kind, Shader},
+    shader::{Kind, Shader, Texel},
 };
 use std::collections::BTreeMap;
 use welkin_scene::renderer::PassTime;
@@ -22,7 +22,7 @@ pub(crate) enum Bind<'a> {
     LinearClamp,
 }
 
-fn layout_entry(binding: u32, kind: Kind, table_format: wgpu::TextureFormat) -> wgpu::BindGroupLayoutEntry {
+fn layout_entry(binding: u32, kind: Kind, gpu: &Gpu) -> wgpu::BindGroupLayoutEntry {
     use wgpu::{BindingType, BufferBindingType, StorageTextureAccess, TextureViewDimension};
     let buffer = |ty| BindingType::Buffer {
         ty,
@@ -34,9 +34,9 @@ fn layout_entry(binding: u32, kind: Kind, table_format: wgpu::TextureFormat) -> 
         view_dimension,
         multisampled: false,
     };
-    let written = |view_dimension| BindingType::StorageTexture {
+    let written = |view_dimension, texel: Texel| BindingType::StorageTexture {
         access: StorageTextureAccess::WriteOnly,
-        format: table_format,
+        format: gpu.format(texel),
         view_dimension,
     };
     let ty = match kind {
@@ -46,8 +46,10 @@ fn layout_entry(binding: u32, kind: Kind, table_format: wgpu::TextureFormat) -> 
         Kind::Sampler => BindingType::Sampler(wgpu::SamplerBindingType::Filtering),
         Kind::Table => sampled(TextureViewDimension::D2),
         Kind::TableLayers => sampled(TextureViewDimension::D2Array),
-        Kind::WriteTable => written(TextureViewDimension::D2),
-        Kind::WriteTableLayers => written(TextureViewDimension::D2Array),
+        Kind::Volume => sampled(TextureViewDimension::D3),
+        Kind::WriteTable(texel) => written(TextureViewDimension::D2, texel),
+        Kind::WriteTableLayers(texel) => written(TextureViewDimension::D2Array, texel),
+        Kind::WriteVolume(texel) => written(TextureViewDimension::D3, texel),
     };
     wgpu::BindGroupLayoutEntry {
         binding,
@@ -66,7 +68,7 @@ impl Kernel {
     pub(crate) fn variant(gpu: &Gpu, shader: &'static Shader, constants: &[(&str, f64)]) -> Self {
         let entries: Vec<_> = (0_u32..)
             .zip(shader.bindings)
-            .map(|(at, kind)| layout_entry(at, *kind, gpu.table_format))
+            .map(|(at, kind)| layout_entry(at, *kind, gpu))
             .collect();
         let layout = gpu
             .device

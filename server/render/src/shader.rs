@@ -17,8 +17,19 @@ pub(crate) enum Kind {
     Sampler,
     Table,
     TableLayers,
-    WriteTable,
-    WriteTableLayers,
+    Volume,
+    WriteTable(Texel),
+    WriteTableLayers(Texel),
+    WriteVolume(Texel),
+}
+
+/// What a texture that shaders write holds: four of these a texel.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Texel {
+    /// 32-bit floats where the device filters them, else half floats.
+    Float,
+    /// Bytes from 0 to 1.
+    Byte,
 }
 
 include!(concat!(env!("OUT_DIR"), "/shaders.rs"));
