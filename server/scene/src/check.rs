@@ -2,6 +2,7 @@
 
 use crate::{
     camera::{FisheyeMapping, Projection},
+    clouds,
     direction::Direction,
     document::Scene,
     frame::FrameRequest,
@@ -49,6 +50,9 @@ impl Check for Scene {
         haze(self, at, problems);
         moon(self, at, problems);
         airglow(self, at, problems);
+        if let Some(clouds) = &self.clouds {
+            clouds::check(clouds, &format!("{at}/clouds"), problems);
+        }
     }
 }
 

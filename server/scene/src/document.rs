@@ -1,8 +1,8 @@
 //! The scene document.
 
 use crate::{
-    atmosphere::Atmosphere, camera::Camera, display::Display, haze::Haze, moon::Moon, planet::Planet,
-    stars::Stars, sun::Sun,
+    atmosphere::Atmosphere, camera::Camera, clouds::Clouds, display::Display, haze::Haze, moon::Moon,
+    planet::Planet, stars::Stars, sun::Sun,
 };
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -11,7 +11,8 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Scene {
-    /// Time since the scene's beginning, seconds. Moves the sun where it is given by time and place.
+    /// Time since the scene's beginning, seconds. Moves the clouds, and the sun where it is
+    /// given by time and place.
     #[schemars(range(min = -1e9, max = 1e9))]
     pub time_s: f64,
     /// The observer.
@@ -26,6 +27,8 @@ pub struct Scene {
     pub planet: Planet,
     /// The air; `null` is vacuum.
     pub atmosphere: Option<Atmosphere>,
+    /// The clouds; `null` for none.
+    pub clouds: Option<Clouds>,
     /// Haze or fog on the ground, in addition to the air's aerosols; `null` is none.
     pub haze: Option<Haze>,
     /// From radiance to a picture.
@@ -42,6 +45,7 @@ impl Default for Scene {
             stars: Some(Stars::default()),
             planet: Planet::default(),
             atmosphere: Some(Atmosphere::default()),
+            clouds: None,
             haze: None,
             display: Display::default(),
         }

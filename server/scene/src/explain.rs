@@ -7,7 +7,7 @@ use crate::{
     problem::{Problem, Problems, echo, label, member},
     shape::{TAG, branches, describe, fields, is_of_type, members, one_of, resolve, tags, words},
 };
-use serde_json::Value;
+use serde_json::{Value, json};
 
 /// Names less alike than this are not taken for one another.
 const ALIKE: f64 = 0.5;
@@ -19,7 +19,7 @@ pub(crate) fn explain(root: &Value, schema: &Value, pointer: &str, held: &Value,
         return explain_union(root, schema, pointer, held, problems);
     }
     let wrong_word = schema.get("const").is_some_and(|word| word != held);
-    if !is_of_type(schema, held) || wrong_word || is_out_of_range(schema, held) {
+    if !is_of_type(schema, held) || wrong_word || is_out_of_range(schema, held) || is_misspelt(schema, held) {
         return problems.push(misfit(root, schema, pointer, held));
     }
     match held {
@@ -48,11 +48,11 @@ pub(crate) fn explain(root: &Value, schema: &Value, pointer: &str, held: &Value,
                 .flatten()
                 .filter_map(Value::as_str)
             {
-                let is_misspelt = || {
+                let is_there_misspelt = || {
                     held.keys()
                         .any(|k| known.get(k).is_none() && nearest(k, &members(schema)) == Some(name))
                 };
-                if !held.contains_key(name) && !is_misspelt() {
+                if !held.contains_key(name) && !is_there_misspelt() {
                     let allowed = describe(root, &known[name], &member(pointer, name));
                     problems.push(missing(pointer, name, allowed));
                 }
@@ -92,6 +92,12 @@ fn is_out_of_range(schema: &Value, held: &Value) -> bool {
             .is_some_and(|(size, limit)| is_beyond(&size, &limit))
     };
     beyond(least, f64::lt) || beyond(most, f64::gt)
+}
+
+/// A text that does not match its pattern.
+fn is_misspelt(schema: &Value, held: &Value) -> bool {
+    let pattern = schema.get("pattern").filter(|_| held.is_string());
+    pattern.is_some_and(|pattern| !jsonschema::is_valid(&json!({ "pattern": pattern }), held))
 }
 
 fn misfit(root: &Value, schema: &Value, pointer: &str, held: &Value) -> Problem {

@@ -47,7 +47,7 @@ pub(crate) fn whole_or_null<'de, D: Deserializer<'de>>(deserializer: D) -> Resul
 }
 
 /// Reads a whole number however JSON writes it: 1280, 1280.0 or 1.28e3 are one `integer` in JSON Schema.
-fn whole<'de, D: Deserializer<'de>>(deserializer: D) -> Result<u32, D::Error> {
+pub(crate) fn whole<'de, D: Deserializer<'de>>(deserializer: D) -> Result<u32, D::Error> {
     let number = f64::deserialize(deserializer)?;
     if number.fract() != 0.0 || !(0.0..=f64::from(u32::MAX)).contains(&number) {
         return Err(D::Error::custom(format!("{number} is not a whole number")));

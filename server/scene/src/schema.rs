@@ -49,7 +49,7 @@ pub(crate) struct Unit {
 }
 
 /// A suffix stands before any other that it ends in.
-const UNITS: [Unit; 9] = [
+const UNITS: [Unit; 10] = [
     Unit {
         suffix: "_w_m2_sr",
         symbol: "W/m²/sr",
@@ -79,6 +79,11 @@ const UNITS: [Unit; 9] = [
         suffix: "_ev",
         symbol: "EV",
         word: "EV",
+    },
+    Unit {
+        suffix: "_m_s",
+        symbol: "m/s",
+        word: "metres per second",
     },
     Unit {
         suffix: "_m",

@@ -98,7 +98,10 @@ pub(crate) fn describe(root: &Value, schema: &Value, pointer: &str) -> String {
         "null" => "null".into(),
         "boolean" => "true or false".into(),
         "string" if schema["format"] == "date-time" => "a date and time as in RFC 3339".into(),
-        "string" => "a text".into(),
+        "string" => match schema["pattern"].as_str() {
+            Some(pattern) => format!("a text that matches `{pattern}`"),
+            None => "a text".into(),
+        },
         "integer" => format!("a whole number{}", range(schema, pointer)),
         "number" => format!("a number{}", range(schema, pointer)),
         "array" => array(root, schema, pointer),

@@ -201,8 +201,9 @@ prop_compose! {
         ground_albedo in prop::array::uniform3(0.0..=1.0),
         atmosphere in option::of(atmosphere()),
         haze in option::of(haze()),
+        clouds in option::of(crate::clouds::clouds()),
         display in display(),
     ) -> Scene {
-        Scene { time_s, camera, sun, moon, stars, planet: Planet { radius_m, ground_albedo }, atmosphere, haze, display }
+        Scene { time_s, camera, sun, moon, stars, planet: Planet { radius_m, ground_albedo }, atmosphere, clouds, haze, display }
     }
 }
