@@ -90,3 +90,15 @@ impl Default for Gradients {
         }
     }
 }
+
+impl Gradients {
+    /// Each type fills its layer, so that the layer's heights are those of the clouds.
+    #[must_use]
+    pub const fn filling() -> Self {
+        Self {
+            stratus: [0.0, 0.1, 0.85, 1.0],
+            stratocumulus: [0.0, 0.15, 0.6, 1.0],
+            cumulus: [0.0, 0.0625, 0.78, 1.0],
+        }
+    }
+}

@@ -11,11 +11,12 @@ static SCHEMA: LazyLock<Validator> =
     LazyLock::new(|| jsonschema::draft202012::new(&scene_schema()).expect("a derived schema is valid"));
 
 /// Where the reader refuses what the schema lets pass.
-const BEYOND_THE_SCHEMA: [&str; 13] = [
+const BEYOND_THE_SCHEMA: [&str; 14] = [
     "/camera/direction",
     "/camera/position_m",
     "/camera/projection/fov_deg",
     "/clouds/layers/0/top_m",
+    "/clouds/layers/1/top_m",
     "/clouds/shape/gradients/cumulus",
     "/clouds/shape/gradients/stratocumulus",
     "/clouds/shape/gradients/stratus",

@@ -18,7 +18,11 @@ async fn presets_are_listed_and_each_renders() {
         "moonlit-night",
         "starry-night",
         "from-orbit",
+        "fair-weather",
+        "cumulonimbus",
+        "cirrus",
         "complutense",
+        "bauman",
     ] {
         let preset = get(&app, &format!("/v1/presets/{name}")).await.json();
         assert!(presets.as_array().unwrap().contains(&preset), "{name}");

@@ -1,46 +1,16 @@
-//! Ready-made scenes.
+//! Clear skies by day and night.
 
+use super::{Preset, looking, sun};
 use crate::{
-    atmosphere::{Atmosphere, Mie, Orders, Rayleigh},
-    bands::Bands,
     camera::{Camera, Projection},
     direction::Direction,
-    display::{Display, Exposure, ToneCurve},
+    display::Display,
     document::Scene,
     moon::Moon,
-    planet::Planet,
-    sun::{Sun, SunPosition},
 };
-use serde::Serialize;
-use std::sync::LazyLock;
 
-/// A ready-made scene.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Preset {
-    /// As requests name it.
-    pub name: &'static str,
-    /// As people read it.
-    pub title: &'static str,
-    /// What it shows.
-    pub description: &'static str,
-    /// The scene, complete.
-    pub scene: Scene,
-}
-
-/// All of them.
-#[must_use]
-pub fn presets() -> &'static [Preset] {
-    &*PRESETS
-}
-
-/// The one of that name.
-#[must_use]
-pub fn preset(name: &str) -> Option<&'static Preset> {
-    presets().iter().find(|preset| preset.name == name)
-}
-
-static PRESETS: LazyLock<[Preset; 7]> = LazyLock::new(|| {
-    [
+pub(super) fn presets() -> Vec<Preset> {
+    vec![
         Preset {
             name: "clear-noon",
             title: "Clear noon",
@@ -48,7 +18,7 @@ static PRESETS: LazyLock<[Preset; 7]> = LazyLock::new(|| {
             scene: Scene {
                 camera: looking(20.0, 20.0),
                 sun: sun(180.0, 60.0),
-                ..Scene::default()
+                ..clear()
             },
         },
         Preset {
@@ -58,7 +28,7 @@ static PRESETS: LazyLock<[Preset; 7]> = LazyLock::new(|| {
             scene: Scene {
                 camera: looking(275.0, 12.0),
                 sun: sun(250.0, 6.0),
-                ..Scene::default()
+                ..clear()
             },
         },
         Preset {
@@ -73,7 +43,7 @@ static PRESETS: LazyLock<[Preset; 7]> = LazyLock::new(|| {
                     white_balance_k: 4500.0,
                     ..Display::default()
                 },
-                ..Scene::default()
+                ..clear()
             },
         },
         Preset {
@@ -107,15 +77,16 @@ static PRESETS: LazyLock<[Preset; 7]> = LazyLock::new(|| {
             description: "The limb from 400 km up with the sun low behind it: the air is a thin blue line.",
             scene: from_orbit(),
         },
-        Preset {
-            name: "complutense",
-            title: "Complutense",
-            description: "The air, the eye and the curve of a thesis of the Universidad Complutense de Madrid \
-                          (Iniesta and Pérez 2015): light scattered once, no ozone.",
-            scene: complutense(),
-        },
     ]
-});
+}
+
+/// No clouds.
+fn clear() -> Scene {
+    Scene {
+        clouds: None,
+        ..Scene::default()
+    }
+}
 
 /// As photographers set the white of a night.
 fn night(white_balance_k: f64) -> Scene {
@@ -124,21 +95,7 @@ fn night(white_balance_k: f64) -> Scene {
             white_balance_k,
             ..Display::default()
         },
-        ..Scene::default()
-    }
-}
-
-fn looking(azimuth_deg: f64, elevation_deg: f64) -> Camera {
-    Camera {
-        direction: Direction::angles(azimuth_deg, elevation_deg),
-        ..Camera::default()
-    }
-}
-
-fn sun(azimuth_deg: f64, elevation_deg: f64) -> Sun {
-    Sun {
-        position: SunPosition::Direction(Direction::angles(azimuth_deg, elevation_deg)),
-        ..Sun::default()
+        ..clear()
     }
 }
 
@@ -154,45 +111,6 @@ fn from_orbit() -> Scene {
             ..looking(75.0, -19.0)
         },
         sun: sun(90.0, -12.0),
-        ..Scene::default()
-    }
-}
-
-/// The thesis follows single scattering alone and sees no ground in its sky, hence the black ground.
-fn complutense() -> Scene {
-    const MIE_SCATTERING_PER_M: f64 = 2.0e-5;
-    Scene {
-        sun: Sun {
-            irradiance_w_m2: [30.0; 3],
-            ..Sun::default()
-        },
-        planet: Planet {
-            radius_m: 6_371_000.0,
-            ground_albedo: [0.0; 3],
-        },
-        atmosphere: Some(Atmosphere {
-            orders: Orders::Single,
-            top_m: 100_000.0,
-            density_factor: 1.0,
-            rayleigh: Some(Rayleigh {
-                scattering_per_m: [5.8e-6, 13.5e-6, 33.1e-6],
-                scale_height_m: 7_994.0,
-                ..Rayleigh::default()
-            }),
-            mie: Some(Mie {
-                scattering_per_m: Bands::Grey(MIE_SCATTERING_PER_M),
-                absorption_per_m: Bands::Grey(0.1 * MIE_SCATTERING_PER_M),
-                scale_height_m: 1_200.0,
-                asymmetry: 0.76,
-            }),
-            ozone: None,
-            ..Atmosphere::default()
-        }),
-        display: Display {
-            exposure: Exposure::Pupil { gain: 1.0 },
-            tone_curve: ToneCurve::Exponential,
-            ..Display::default()
-        },
-        ..Scene::default()
+        ..clear()
     }
 }
