@@ -55,6 +55,7 @@ impl Viewer<'_> {
     fn order(&self, scene: &Scene, size: Size, output: Output) -> FrameOrder {
         FrameOrder {
             scene: Arc::new(scene.clone()),
+            assets: Arc::default(),
             width_px: size.width_px,
             height_px: size.height_px,
             quality: self.quality,
@@ -78,7 +79,7 @@ impl Viewer<'_> {
             scene: truth.clone(),
             directions: sights.iter().map(|sight| sight.direction).collect(),
         };
-        let truth = pollster::block_on(self.renderer.probe(request))?;
+        let truth = pollster::block_on(self.renderer.probe(request.into()))?;
         let Pixels::Linear(values) = &frame.pixels else {
             return Err(Failure::Bench(
                 "the renderer gave a picture for radiance".to_owned(),

@@ -28,7 +28,7 @@ pub(crate) fn run(args: &Args, config: Option<&Path>) -> Result<(), Failure> {
     let request = request(args)?;
     let renderer = crate::open_renderer(&settings)?;
     let doing = format!("probing {} directions", request.directions.len());
-    let answer = wait_for(&doing, renderer.probe(request))?;
+    let answer = wait_for(&doing, renderer.probe(request.into()))?;
     document::print(&json!(answer), false)
 }
 

@@ -3,7 +3,7 @@
 use super::{Failure, document, document::STANDARD, logging, output::Output, waiting::wait_for};
 use crate::settings::{DeviceFlags, Settings};
 use serde_json::{Value, json};
-use std::path::Path;
+use std::{path::Path, sync::Arc};
 use welkin_encode::{Options, encode, format_from_path, output_for};
 use welkin_scene::{
     Format, FrameRequest,
@@ -46,6 +46,7 @@ pub(crate) fn run(args: &Args, config: Option<&Path>) -> Result<(), Failure> {
     let renderer = crate::open_renderer(&settings)?;
     let order = FrameOrder {
         scene: request.scene.clone().into(),
+        assets: Arc::default(),
         width_px: request.width_px,
         height_px: request.height_px,
         quality: request.quality,

@@ -10,11 +10,11 @@ use crate::{
     uniforms::Standpoint,
 };
 use glam::DVec3;
-use welkin_scene::{Irradiance, ProbeAnswer, ProbeRequest};
+use welkin_scene::{Irradiance, ProbeAnswer, renderer::ProbeOrder};
 
 /// A probe on its way: the directions asked for, and those over which irradiance and harmonics are summed.
 pub(crate) struct ProbeJob {
-    request: ProbeRequest,
+    order: ProbeOrder,
     stand: Standpoint,
     nodes: Vec<Node>,
     sights: Vec<Sight>,
@@ -22,7 +22,8 @@ pub(crate) struct ProbeJob {
 }
 
 impl ProbeJob {
-    pub(crate) fn new(request: ProbeRequest) -> Self {
+    pub(crate) fn new(order: ProbeOrder) -> Self {
+        let request = &order.request;
         let stand = Standpoint::new(&request.scene);
         let nodes = sphere(&stand, request.scene.planet.radius_m);
         let asked = request.directions.iter().map(|d| Sight {
@@ -35,7 +36,7 @@ impl ProbeJob {
         });
         let sights = asked.chain(summed).collect();
         Self {
-            request,
+            order,
             stand,
             nodes,
             sights,
@@ -48,12 +49,12 @@ impl ProbeJob {
         let from = self.seen.len();
         let to = (from + CHUNK).min(self.sights.len());
         self.seen
-            .extend(engine.probe(&self.request.scene, &self.sights[from..to])?);
+            .extend(engine.probe(&self.order.request.scene, &self.sights[from..to])?);
         Ok((to == self.sights.len()).then(|| self.answer()))
     }
 
     fn answer(&self) -> ProbeAnswer {
-        let (asked, summed) = self.seen.split_at(self.request.directions.len());
+        let (asked, summed) = self.seen.split_at(self.order.request.directions.len());
         let mut diffuse_w_m2 = [0.0; 3];
         let mut sh9 = [[0.0; 3]; 9];
         for (node, seen) in self.nodes.iter().zip(summed) {
@@ -66,8 +67,8 @@ impl ProbeJob {
                 }
             }
         }
-        let night = Night::new(&self.request.scene, &self.stand);
-        let direct_normal_w_m2 = direct_normal(&self.request.scene, &self.stand, &night);
+        let night = Night::new(&self.order.request.scene, &self.stand);
+        let direct_normal_w_m2 = direct_normal(&self.order.request.scene, &self.stand, &night);
         let falling = self.stand.up.dot(self.stand.sun).max(0.0);
         ProbeAnswer {
             radiance_w_m2_sr: asked.iter().map(|s| s.radiance).collect(),
@@ -76,12 +77,12 @@ impl ProbeJob {
             irradiance: Irradiance {
                 direct_w_m2: direct_normal_w_m2.map(|e| e * falling),
                 direct_normal_w_m2,
-                moon_direct_normal_w_m2: moon_direct_normal(&self.request.scene, &self.stand, &night),
+                moon_direct_normal_w_m2: moon_direct_normal(&self.order.request.scene, &self.stand, &night),
                 diffuse_w_m2,
                 sh9,
             },
-            sun: self.request.scene.sun_place(),
-            moon: self.request.scene.moon_place(),
+            sun: self.order.request.scene.sun_place(),
+            moon: self.order.request.scene.moon_place(),
         }
     }
 }

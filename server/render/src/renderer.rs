@@ -20,9 +20,9 @@ use std::{
     time::Instant,
 };
 use welkin_scene::{
-    ProbeAnswer, ProbeRequest, Quality, Scene,
+    ProbeAnswer, Quality, Scene,
     frame::MAX_SIDE_PX,
-    renderer::{DeviceInfo, Frame, FrameOrder, Output, Priority, Render, RenderError, Reply},
+    renderer::{DeviceInfo, Frame, FrameOrder, Output, Priority, ProbeOrder, Render, RenderError, Reply},
 };
 
 #[cfg(test)]
@@ -171,6 +171,7 @@ impl Renderer {
         for output in [Output::Display, Output::Linear] {
             let order = FrameOrder {
                 scene: Arc::new(Scene::default()),
+                assets: Arc::default(),
                 width_px: 16,
                 height_px: 16,
                 quality: Quality::Preview,
@@ -248,8 +249,8 @@ impl Render for Renderer {
         self.order(|answer| Work::Frame(Box::new(FrameJob::new(order)), answer))
     }
 
-    fn probe(&self, request: ProbeRequest) -> Reply<ProbeAnswer> {
-        self.order(|answer| Work::Probe(Box::new(ProbeJob::new(request)), answer))
+    fn probe(&self, order: ProbeOrder) -> Reply<ProbeAnswer> {
+        self.order(|answer| Work::Probe(Box::new(ProbeJob::new(order)), answer))
     }
 
     fn device(&self) -> DeviceInfo {

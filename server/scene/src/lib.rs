@@ -6,6 +6,7 @@
 //! clockwise from north, elevations up from the horizon.
 
 pub mod airglow;
+pub mod assets;
 pub mod atmosphere;
 pub mod bands;
 pub mod camera;
@@ -35,6 +36,7 @@ pub mod stars;
 pub mod sun;
 
 pub use airglow::Airglow;
+pub use assets::{AssetReference, SceneAssets, WeatherPicture, is_asset_name};
 pub use atmosphere::{Atmosphere, Method, Mie, Orders, Ozone, Rayleigh};
 pub use bands::Bands;
 pub use camera::{Camera, FisheyeMapping, Projection};

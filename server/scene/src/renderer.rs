@@ -1,6 +1,7 @@
 //! What may be asked of a renderer, whichever it is. The service and the workers know only this.
 
 use crate::{
+    assets::SceneAssets,
     document::Scene,
     frame::Quality,
     moon::MoonPlace,
@@ -17,7 +18,7 @@ pub trait Render: Send + Sync {
     /// One frame. The work is queued by the call itself, not at the first poll.
     fn frame(&self, order: FrameOrder) -> Reply<Arc<Frame>>;
     /// Radiance at exact directions.
-    fn probe(&self, request: ProbeRequest) -> Reply<ProbeAnswer>;
+    fn probe(&self, order: ProbeOrder) -> Reply<ProbeAnswer>;
     /// The device that renders.
     fn device(&self) -> DeviceInfo;
 }
@@ -27,6 +28,8 @@ pub trait Render: Send + Sync {
 pub struct FrameOrder {
     /// What is seen.
     pub scene: Arc<Scene>,
+    /// Every asset that the scene names.
+    pub assets: Arc<SceneAssets>,
     /// Width, pixels, 1 to [`crate::frame::MAX_SIDE_PX`].
     pub width_px: u32,
     /// Height, pixels, 1 to [`crate::frame::MAX_SIDE_PX`].
@@ -37,6 +40,25 @@ pub struct FrameOrder {
     pub output: Output,
     /// Who waits for it.
     pub priority: Priority,
+}
+
+/// Directions to probe. The request has been validated.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct ProbeOrder {
+    /// What is asked.
+    pub request: ProbeRequest,
+    /// Every asset that the request's scene names.
+    pub assets: Arc<SceneAssets>,
+}
+
+/// Of a scene that names no asset.
+impl From<ProbeRequest> for ProbeOrder {
+    fn from(request: ProbeRequest) -> Self {
+        Self {
+            request,
+            assets: Arc::default(),
+        }
+    }
 }
 
 /// What the pixels are.

@@ -24,7 +24,7 @@ pub(crate) async fn post_probe(
     JsonText(body): JsonText,
 ) -> Result<Json<ProbeAnswer>, Error> {
     let request = ProbeRequest::from_json(&body)?;
-    let answer = service.renderer.probe(request).await;
+    let answer = service.renderer.probe(request.into()).await;
     answer.map(Json).map_err(|e| {
         crate::metrics::refused(&e);
         Error::from_render(e, service.renderer.device().max_side_px)

@@ -9,6 +9,7 @@ use welkin_scene::{Direction, Exposure, Projection, Quality, Scene, renderer::Pr
 fn order(scene: Scene, width_px: u32, height_px: u32, output: Output) -> FrameOrder {
     FrameOrder {
         scene: Arc::new(scene),
+        assets: Arc::default(),
         width_px,
         height_px,
         quality: Quality::Preview,

@@ -7,6 +7,7 @@ use welkin_scene::renderer::Pixels;
 fn order(height_px: u32, output: Output) -> FrameOrder {
     FrameOrder {
         scene: Arc::new(Scene::default()),
+        assets: Arc::default(),
         width_px: 32,
         height_px,
         quality: Quality::Preview,
@@ -111,7 +112,7 @@ fn a_device_lost_within_a_frame_or_a_probe_costs_no_answer() {
     assert_eq!(answer(waiting).unwrap().pixels, expected.pixels);
     assert_eq!(recoveries(&worker), 1);
     let (probe, waiting) = task(&worker, |answer| {
-        Work::Probe(Box::new(ProbeJob::new(ProbeRequest::default())), answer)
+        Work::Probe(Box::new(ProbeJob::new(ProbeOrder::default())), answer)
     });
     lose_device(&worker);
     finish(&mut worker, probe);

@@ -19,6 +19,7 @@ fn radiance(table_format: wgpu::TextureFormat) -> Vec<f32> {
     scene.sun.disc = false;
     let mut job = FrameJob::new(FrameOrder {
         scene: Arc::new(scene),
+        assets: Arc::default(),
         width_px: 96,
         height_px: 54,
         quality: Quality::Final,

@@ -68,7 +68,8 @@ fn renderer() -> &'static Renderer {
 }
 
 fn probe(scene: Scene, directions: Vec<Direction>) -> ProbeAnswer {
-    pollster::block_on(renderer().probe(ProbeRequest { scene, directions })).unwrap()
+    let request = ProbeRequest { scene, directions };
+    pollster::block_on(renderer().probe(request.into())).unwrap()
 }
 
 /// A frame of one pixel, so narrow that it is one direction.
@@ -79,6 +80,7 @@ fn pixel(mut scene: Scene, direction: Direction, quality: Quality) -> Rgb {
     };
     let order = FrameOrder {
         scene: Arc::new(scene),
+        assets: Arc::default(),
         width_px: 1,
         height_px: 1,
         quality,

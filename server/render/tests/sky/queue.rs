@@ -10,8 +10,8 @@ use std::{
 };
 use welkin_render::{Renderer, RendererSettings};
 use welkin_scene::{
-    ProbeRequest, Quality, Scene,
-    renderer::{FrameOrder, Output, Pixels, Priority, Render, RenderError, Reply},
+    Quality, Scene,
+    renderer::{FrameOrder, Output, Pixels, Priority, ProbeOrder, Render, RenderError, Reply},
 };
 
 /// A renderer of a test's own.
@@ -93,7 +93,7 @@ fn a_full_queue_says_busy_and_a_dropped_order_frees_its_place() {
     };
     assert!((1..=60).contains(&retry_after_s), "{retry_after_s}");
     assert!(matches!(
-        pollster::block_on(renderer.probe(ProbeRequest::default())),
+        pollster::block_on(renderer.probe(ProbeOrder::default())),
         Err(RenderError::Busy { .. })
     ));
     drop(dropped);
@@ -122,7 +122,7 @@ fn people_go_before_batches_and_batches_go_on() {
         "the small frame waited for the batch"
     );
     // Probes too are somebody's.
-    pollster::block_on(renderer.probe(ProbeRequest::default())).unwrap();
+    pollster::block_on(renderer.probe(ProbeOrder::default())).unwrap();
     assert_eq!(pollster::block_on(batch).unwrap().width_px, 1500);
     assert_eq!(pollster::block_on(other).unwrap().width_px, 1500);
 }

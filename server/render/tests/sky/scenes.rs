@@ -61,6 +61,7 @@ pub(crate) fn order(
 ) -> FrameOrder {
     FrameOrder {
         scene: Arc::new(scene),
+        assets: Arc::default(),
         width_px,
         height_px,
         quality,
@@ -131,7 +132,7 @@ pub(crate) fn probe(scene: &Scene, directions: &[Direction]) -> ProbeAnswer {
         scene: scene.clone(),
         directions: directions.to_vec(),
     };
-    pollster::block_on(renderer().probe(request)).unwrap()
+    pollster::block_on(renderer().probe(request.into())).unwrap()
 }
 
 /// Radiance in one direction.

@@ -111,6 +111,7 @@ impl Service {
         let Asked { request, format, .. } = asked;
         let order = FrameOrder {
             scene: Arc::new(request.scene.clone()),
+            assets: Arc::default(),
             width_px: request.width_px,
             height_px: request.height_px,
             quality: request.quality,

@@ -83,6 +83,7 @@ pub(crate) async fn take(service: Service, view: View, stage: Stage) -> Result<S
     let (width_px, height_px) = divided(output.width_px, output.height_px, divisor);
     let order = FrameOrder {
         scene: Arc::clone(&view.scene),
+        assets: Arc::default(),
         width_px: width_px.into(),
         height_px: height_px.into(),
         quality,

@@ -10,9 +10,10 @@ use std::{
     time::Duration,
 };
 use welkin_scene::{
-    Irradiance, ProbeAnswer, ProbeRequest, Quality,
+    Irradiance, ProbeAnswer, Quality,
     renderer::{
-        DeviceInfo, Frame, FrameFacts, FrameOrder, Output, PassTime, Pixels, Render, RenderError, Reply,
+        DeviceInfo, Frame, FrameFacts, FrameOrder, Output, PassTime, Pixels, ProbeOrder, Render, RenderError,
+        Reply,
     },
 };
 
@@ -100,7 +101,7 @@ impl Render for Fake {
         })
     }
 
-    fn probe(&self, request: ProbeRequest) -> Reply<ProbeAnswer> {
+    fn probe(&self, ProbeOrder { request, .. }: ProbeOrder) -> Reply<ProbeAnswer> {
         let failure = self.failure();
         Box::pin(async move {
             let count = request.directions.len();

@@ -1,0 +1,173 @@
+//! What a scene refers to by name, and what a renderer gets for it.
+
+use crate::{
+    clouds::{AssetMap, BlendMap, PlainMap, WeatherMap},
+    document::Scene,
+};
+use std::{collections::BTreeMap, fmt, sync::Arc};
+
+/// Longest name of an asset, characters.
+pub const MAX_NAME_CHARS: usize = 64;
+
+/// True for `[a-z0-9][a-z0-9_-]{0,63}`, the names that assets have.
+#[must_use]
+pub fn is_asset_name(name: &str) -> bool {
+    let letter_or_digit = |byte: u8| byte.is_ascii_lowercase() || byte.is_ascii_digit();
+    let bytes = name.as_bytes();
+    bytes.len() <= MAX_NAME_CHARS
+        && bytes.first().is_some_and(|&first| letter_or_digit(first))
+        && bytes
+            .iter()
+            .all(|&byte| letter_or_digit(byte) || byte == b'_' || byte == b'-')
+}
+
+/// A weather map as a renderer gets it. Two of the same digest are the same picture.
+#[derive(Clone)]
+pub struct WeatherPicture {
+    /// Width, pixels.
+    pub width_px: u32,
+    /// Height, pixels.
+    pub height_px: u32,
+    /// R, G, B, A of each pixel, rows from the top, as they stand in the file: no colour space is meant. A file
+    /// without colour has its grey in R, G and B; one without alpha is opaque.
+    pub rgba: Arc<[u8]>,
+    /// SHA-256 of the file that the picture was read from.
+    pub digest: [u8; 32],
+}
+
+impl PartialEq for WeatherPicture {
+    fn eq(&self, other: &Self) -> bool {
+        self.digest == other.digest
+    }
+}
+
+impl Eq for WeatherPicture {}
+
+impl fmt::Debug for WeatherPicture {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self {
+            width_px, height_px, ..
+        } = self;
+        write!(
+            f,
+            "WeatherPicture({width_px} x {height_px}, {})",
+            self.digest_hex()
+        )
+    }
+}
+
+impl WeatherPicture {
+    /// The digest in hexadecimal.
+    #[must_use]
+    pub fn digest_hex(&self) -> String {
+        self.digest.iter().map(|byte| format!("{byte:02x}")).collect()
+    }
+}
+
+/// The assets that a scene refers to, each under its name. Equal where every name stands for the same content.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct SceneAssets {
+    /// Weather maps.
+    pub weather_maps: BTreeMap<String, Arc<WeatherPicture>>,
+}
+
+/// A place in a scene where an asset is named.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct AssetReference<'a> {
+    /// The field that holds the name, as a JSON pointer in the scene.
+    pub pointer: &'static str,
+    /// The name.
+    pub name: &'a str,
+}
+
+impl Scene {
+    /// The weather maps that the scene takes from the asset store, in the order of the document.
+    #[must_use]
+    pub fn weather_map_references(&self) -> Vec<AssetReference<'_>> {
+        let Some(clouds) = &self.clouds else {
+            return Vec::new();
+        };
+        match &clouds.weather_map {
+            WeatherMap::Asset(AssetMap { name, .. }) => vec![AssetReference {
+                pointer: "/clouds/weather_map/name",
+                name,
+            }],
+            WeatherMap::Blend(BlendMap { from, to, .. }) => [
+                plain(from, "/clouds/weather_map/from/name"),
+                plain(to, "/clouds/weather_map/to/name"),
+            ]
+            .into_iter()
+            .flatten()
+            .collect(),
+            WeatherMap::Procedural(_) | WeatherMap::Uniform(_) => Vec::new(),
+        }
+    }
+}
+
+fn plain<'a>(map: &'a PlainMap, pointer: &'static str) -> Option<AssetReference<'a>> {
+    match map {
+        PlainMap::Asset(AssetMap { name, .. }) => Some(AssetReference { pointer, name }),
+        PlainMap::Procedural(_) | PlainMap::Uniform(_) => None,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, reason = "tests fail by panicking")]
+
+    use super::*;
+    use serde_json::json;
+
+    #[test]
+    fn names_are_those_that_the_schema_allows() {
+        for name in ["a", "0", "front-2_b", &"x".repeat(64)] {
+            assert!(is_asset_name(name), "{name}");
+        }
+        for name in [
+            "",
+            "-a",
+            "_a",
+            "A",
+            "a.png",
+            "a/b",
+            "..",
+            "ä",
+            "a b",
+            "a\0",
+            &"x".repeat(65),
+        ] {
+            assert!(!is_asset_name(name), "{name:?}");
+        }
+    }
+
+    #[test]
+    fn references_are_found_wherever_a_map_may_stand() {
+        let found = |map: serde_json::Value| {
+            let scene = Scene::from_value(&json!({"clouds": {"weather_map": map}})).unwrap();
+            let found = scene.weather_map_references();
+            found
+                .iter()
+                .map(|r| (r.pointer, r.name.to_owned()))
+                .collect::<Vec<_>>()
+        };
+        let asset = |name: &str| json!({"kind": "asset", "name": name});
+        assert_eq!(found(json!({"kind": "procedural"})), []);
+        assert_eq!(
+            found(asset("front")),
+            [("/clouds/weather_map/name", "front".to_owned())]
+        );
+        assert_eq!(
+            found(json!({"kind": "blend", "from": asset("a"), "to": asset("b")})),
+            [
+                ("/clouds/weather_map/from/name", "a".to_owned()),
+                ("/clouds/weather_map/to/name", "b".to_owned())
+            ]
+        );
+        assert_eq!(
+            found(json!({"kind": "blend", "from": {"kind": "uniform"}, "to": asset("b")})),
+            [("/clouds/weather_map/to/name", "b".to_owned())]
+        );
+        let cloudless = Scene::from_value(&json!({"clouds": null})).unwrap();
+        assert_eq!(cloudless.weather_map_references(), []);
+    }
+}
