@@ -48,6 +48,8 @@ const ZERO_CELSIUS_K: f64 = 273.15;
 pub(super) struct Air<'a> {
     pub(super) atmosphere: Atmosphere,
     pub(super) haze: Option<Haze>,
+    /// There is fog, which hides the sky where the report says that it is hidden.
+    pub(super) is_fogged: bool,
     /// The weather that is seen in it.
     pub(super) shown: Option<&'a Weather>,
     pub(super) notes: Vec<String>,
@@ -88,6 +90,7 @@ pub(super) fn air(report: &Report) -> Air<'_> {
         notes.push(note(kind, *weather));
     }
     let usual = Mie::default();
+    let is_fogged = layer.is_some_and(|(kind, ..)| kind.is_fog());
     let asymmetry = layer.map_or(usual.asymmetry, |(kind, ..)| kind.asymmetry);
     let (haze, shown) = layer.map_or((None, None), |(kind, extinction_per_m, weather)| {
         (Some(haze(&kind, extinction_per_m)), weather)
@@ -100,6 +103,7 @@ pub(super) fn air(report: &Report) -> Air<'_> {
     Air {
         atmosphere,
         haze,
+        is_fogged,
         shown,
         notes,
     }

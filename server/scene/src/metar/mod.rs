@@ -8,10 +8,12 @@ mod air;
 mod fault;
 mod ground;
 mod groups;
+mod layer;
 mod obscuration;
 mod read;
 pub mod report;
 mod scan;
+mod sky;
 mod station;
 mod when;
 mod words;
@@ -27,6 +29,7 @@ use crate::{
     sun::{SunPosition, TimeAndPlace},
 };
 use chrono::{DateTime, Datelike, Utc};
+use read::Part;
 use report::Place;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -81,7 +84,7 @@ impl MetarRequest {
         let read::Reading {
             mut report,
             clock,
-            unused: mut not_rendered,
+            passed,
         } = read::read(&text)?;
         let moment = when::last(clock, self.until(now)).filter(|moment| YEARS.contains(&moment.year()));
         let Some(moment) = moment else {
@@ -103,7 +106,21 @@ impl MetarRequest {
         }
         let air = air::air(&report);
         let snow = ground::snow(&report);
-        let shown = [air.shown, snow.as_ref().and_then(|(_, weather, _)| *weather)];
+        let sky = sky::sky(&report, air.is_fogged);
+        let mut not_rendered: Vec<String> = passed
+            .into_iter()
+            .filter(|(part, _)| match part {
+                Part::None => true,
+                Part::Wind => sky.clouds.is_none(),
+                Part::Cloud(i) => !sky.shown.contains(i),
+            })
+            .map(|(_, text)| text)
+            .collect();
+        let shown = [
+            air.shown,
+            snow.as_ref().and_then(|(_, weather, _)| *weather),
+            sky.rain,
+        ];
         let is_hidden = |weather: &&report::Weather| !shown.iter().flatten().any(|shown| *shown == *weather);
         not_rendered.extend(
             report
@@ -113,8 +130,10 @@ impl MetarRequest {
                 .map(|weather| weather.text.clone()),
         );
         notes.extend(air.notes);
+        notes.extend(sky.notes);
         scene.atmosphere = Some(air.atmosphere);
         scene.haze = air.haze;
+        scene.clouds = sky.clouds;
         if let Some((albedo, _, note)) = snow {
             scene.planet.ground_albedo = [albedo; 3];
             notes.push(note);

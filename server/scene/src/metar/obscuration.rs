@@ -20,6 +20,13 @@ pub(super) struct Obscuration {
     is_water: bool,
 }
 
+impl Obscuration {
+    /// Fog that one stands in.
+    pub(super) fn is_fog(&self) -> bool {
+        self.name == FOG.name && self.top_m > SHALLOW_TOP_M
+    }
+}
+
 const DROPS: f64 = 0.85;
 const FOG: Obscuration = water("fog", 150.0);
 const MIST: Obscuration = water("mist", 300.0);

@@ -26,8 +26,17 @@ pub(super) struct Clock {
 pub(super) struct Reading {
     pub(super) report: Report,
     pub(super) clock: Clock,
-    /// Groups that a scene has no use for, in their order.
-    pub(super) unused: Vec<String>,
+    /// Groups that a scene may have no use for, in their order.
+    pub(super) passed: Vec<(Part, String)>,
+}
+
+/// What of a scene a group may have a use for after all, which the whole report decides.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Part {
+    None,
+    Wind,
+    /// One of the report's clouds.
+    Cloud(usize),
 }
 
 const FORECAST: &str = "a report of what was observed, METAR or SPECI; TAF is a forecast";
@@ -55,7 +64,7 @@ pub(super) fn read(text: &str) -> Result<Reading, ReportFault> {
                 hour: 0,
                 minute: 0,
             },
-            unused: Vec::new(),
+            passed: Vec::new(),
         },
         trend_from: None,
     };
@@ -161,7 +170,7 @@ impl<'a> Reader<'a> {
             }
             "WS" => self.shear()?,
             // The maintenance sign of stations in the United States.
-            "$" => self.pass(1),
+            "$" => self.pass(1, Part::None),
             _ if word.starts_with("PROB") => {
                 if !matches!(word, "PROB30" | "PROB40") {
                     return self.refuse(1, PROBABILITY);
@@ -175,10 +184,10 @@ impl<'a> Reader<'a> {
         Ok(())
     }
 
-    /// Notes that a scene has no use for the next words, and passes over them.
-    fn pass(&mut self, count: usize) {
+    /// Notes what use a scene may have for the next words, and passes over them.
+    fn pass(&mut self, count: usize, part: Part) {
         let text = self.words.text(self.at, self.at + count - 1);
-        self.reading.unused.push(text.into());
+        self.reading.passed.push((part, text.into()));
         self.at += count;
     }
 
@@ -212,7 +221,7 @@ impl<'a> Reader<'a> {
             _ if is_runway(first) => 2,
             _ => return self.refuse(if first.is_empty() { 1 } else { 2 }, SHEAR),
         };
-        self.pass(count);
+        self.pass(count, Part::None);
         Ok(())
     }
 
@@ -232,7 +241,7 @@ impl<'a> Reader<'a> {
 
     /// Read, so that a mistake is found, but kept as text only: a scene shows what was observed.
     fn forecast(&mut self) -> Result<(), ReportFault> {
-        let count = if is_span(self.peek(0)) || cloud::is_kind(self.peek(0)) {
+        let count = if is_span(self.peek(0)) || cloud::kind(self.peek(0)).is_some() {
             1
         } else if matches!(self.peek(0), "FM" | "TL" | "AT") && is_minute(self.peek(1)) {
             2
@@ -248,8 +257,13 @@ impl<'a> Reader<'a> {
     }
 
     fn observed(&mut self) -> Result<(), ReportFault> {
-        if cloud::is_kind(self.peek(0)) {
-            self.pass(1);
+        if let Some(kind) = cloud::kind(self.peek(0)) {
+            let last = self.reading.report.clouds.len().checked_sub(1);
+            let untold = last.filter(|last| self.reading.report.clouds[*last].kind.is_none());
+            if let Some(last) = untold {
+                self.reading.report.clouds[last].kind = Some(kind);
+            }
+            self.pass(1, untold.map_or(Part::None, Part::Cloud));
             return Ok(());
         }
         let (group, count) = self.next()?;
@@ -262,7 +276,8 @@ impl<'a> Reader<'a> {
         if is_late && is_early {
             return self.refuse(count, EARLIER);
         }
-        let mut is_used = true;
+        // None: a scene has use for it.
+        let mut passed = None;
         let mut is_told_twice = false;
         match group {
             Group::Visibility(visibility) if report.visibility.is_none() => {
@@ -271,17 +286,19 @@ impl<'a> Reader<'a> {
             Group::Cavok => {
                 is_told_twice = report.visibility.is_some();
                 report.visibility = Some(visibility::CAVOK);
+                report.is_clear = true;
             }
+            Group::NoCloud => report.is_clear = true,
             // A second figure is the least visibility, whose direction was not told.
-            Group::Visibility(_) => is_used = false,
+            Group::Visibility(_) => passed = Some(Part::None),
             Group::Wind(wind) => {
                 is_told_twice = report.wind.is_some();
-                is_used = false;
+                passed = Some(Part::Wind);
                 report.wind = Some(wind);
             }
             Group::Weather(weather) => report.weather.push(weather),
             Group::Cloud(cloud) => {
-                is_used = false;
+                passed = Some(Part::Cloud(report.clouds.len()));
                 report.clouds.push(cloud);
             }
             Group::VerticalVisibility(distance) => {
@@ -293,17 +310,18 @@ impl<'a> Reader<'a> {
                 (report.temperature_c, report.dew_point_c) = (air, dew);
             }
             // Some stations tell hPa and inches.
-            Group::Pressure(pressure) => is_used = report.pressure_hpa.replace(pressure).is_none(),
+            Group::Pressure(pressure) => {
+                passed = report.pressure_hpa.replace(pressure).map(|_| Part::None);
+            }
             Group::SnowClosed => report.is_closed_by_snow = true,
-            _ => is_used = false,
+            _ => passed = Some(Part::None),
         }
         if is_told_twice {
             return self.refuse(count, TWICE);
         }
-        if is_used {
-            self.at += count;
-        } else {
-            self.pass(count);
+        match passed {
+            None => self.at += count,
+            Some(part) => self.pass(count, part),
         }
         Ok(())
     }

@@ -28,6 +28,8 @@ pub struct Report {
     pub weather: Vec<Weather>,
     /// Layers of cloud.
     pub clouds: Vec<Cloud>,
+    /// It says that there are no clouds of note (CAVOK, SKC, CLR, NSC, NCD).
+    pub is_clear: bool,
     /// Air temperature, °C.
     pub temperature_c: Option<f64>,
     /// Dew point, °C.

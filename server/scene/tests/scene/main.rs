@@ -9,6 +9,7 @@ mod geometry;
 mod hostile;
 mod metar;
 mod metar_air;
+mod metar_clouds;
 mod metar_hostile;
 mod night;
 mod properties;

@@ -33,7 +33,7 @@ async fn a_report_makes_a_scene_that_renders() {
         json!({"distance_m": 600.0, "bound": "exactly"})
     );
     assert_eq!(answer["report"]["trend"], "BECMG 9999 NSW BLU");
-    assert_eq!(answer["not_rendered"], json!(["05003KT", "FEW060", "RED"]));
+    assert_eq!(answer["not_rendered"], json!(["RED"]));
     assert!(answer["notes"][0].as_str().unwrap().contains("fog"), "{answer}");
     let frame = json!({"scene": answer["scene"], "width_px": 8, "height_px": 8});
     assert_eq!(

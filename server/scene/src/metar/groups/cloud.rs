@@ -38,8 +38,8 @@ pub(super) fn read(word: &str) -> Outcome {
 }
 
 /// The kind of the cloud before, where a space came between.
-pub(in crate::metar) fn is_kind(word: &str) -> bool {
-    matches!(word, "CB" | "TCU")
+pub(in crate::metar) fn kind(word: &str) -> Option<&'static str> {
+    ["CB", "TCU"].into_iter().find(|kind| *kind == word)
 }
 
 fn cloud(word: &str) -> Option<Cloud> {
@@ -73,6 +73,6 @@ pub(super) fn placed(word: &str) -> Outcome {
             "N" | "NE" | "E" | "SE" | "S" | "SW" | "W" | "NW" | "OHD" | "ALQDS"
         )
     };
-    let is_cloud = is_kind(kind) && places.split('/').all(is_place);
+    let is_cloud = self::kind(kind).is_some() && places.split('/').all(is_place);
     is_cloud.then_some(Ok(Group::PlacedCloud))
 }
