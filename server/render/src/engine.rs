@@ -2,15 +2,17 @@
 
 use crate::{
     camera::CameraUniform,
+    cloud_noise::CloudNoise,
     cpu::airglow::{NightLight, night_light},
     error::Error,
-    gpu::{AdapterChoice, Gpu},
+    gpu::Gpu,
     kernel::Recorder,
     lights::Lights,
     memo::{Fingerprint, Memo},
     method::Plan,
     moon_face,
     night::Night,
+    noise_cache::DiskCache,
     passes::{
         Table,
         exposure::{EXPOSURE_BYTES, ExposurePass, meter_size},
@@ -22,6 +24,7 @@ use crate::{
         tone::Tone,
         transmittance::Transmittance,
     },
+    renderer::RendererSettings,
     screen::{PICTURE_BYTES, RADIANCE_BYTES, Screen},
     sunlight::{direct_normal, moon_direct_normal},
     uniforms::{AirUniform, Part, Standpoint, TileUniform, ToneUniform, night::AirglowUniform},
@@ -44,6 +47,8 @@ pub(crate) struct Engine {
     exposure: ExposurePass,
     tone: Tone,
     probe: Probe,
+    #[expect(dead_code, reason = "the march through clouds reads it")]
+    cloud_noise: CloudNoise,
     screen: Screen,
     night_light: Memo<NightLight>,
     pub(crate) generation: u64,
@@ -75,11 +80,15 @@ pub(crate) struct Prepared {
 
 impl Engine {
     /// `generation` tells this device from those before it.
-    pub(crate) fn open(choice: &AdapterChoice, generation: u64) -> Result<Self, Error> {
-        Self::on(Gpu::open(choice)?, generation)
+    pub(crate) fn open(settings: &RendererSettings, generation: u64) -> Result<Self, Error> {
+        Self::on(
+            Gpu::open(&settings.adapter)?,
+            settings.disk_cache.clone(),
+            generation,
+        )
     }
 
-    pub(crate) fn on(gpu: Gpu, generation: u64) -> Result<Self, Error> {
+    pub(crate) fn on(gpu: Gpu, disk_cache: Option<DiskCache>, generation: u64) -> Result<Self, Error> {
         let passes = gpu.guarded(|| {
             Ok((
                 Transmittance::new(&gpu),
@@ -102,6 +111,7 @@ impl Engine {
             exposure,
             tone,
             probe,
+            cloud_noise: CloudNoise::new(disk_cache),
             screen: Screen::default(),
             night_light: Memo::new(8),
             generation,

@@ -21,6 +21,7 @@ pub(crate) struct Gpu {
     /// Of all tables: 32-bit floats where the device filters them, else half floats.
     pub(crate) table_format: wgpu::TextureFormat,
     pub(crate) linear_clamp: wgpu::Sampler,
+    pub(crate) linear_repeat: wgpu::Sampler,
     /// Nanoseconds a tick, where the device can time its passes.
     pub(crate) timestamp_period_ns: Option<f32>,
     lost: Arc<Mutex<Option<String>>>,
@@ -149,12 +150,19 @@ impl Gpu {
         device.on_uncaptured_error(Arc::new(
             |error| tracing::error!(%error, "device error outside a scope"),
         ));
-        let linear_clamp = device.create_sampler(&wgpu::SamplerDescriptor {
-            label: Some("linear_clamp"),
-            mag_filter: wgpu::FilterMode::Linear,
-            min_filter: wgpu::FilterMode::Linear,
-            ..wgpu::SamplerDescriptor::default()
-        });
+        let linear = |label, address_mode| {
+            device.create_sampler(&wgpu::SamplerDescriptor {
+                label: Some(label),
+                address_mode_u: address_mode,
+                address_mode_v: address_mode,
+                address_mode_w: address_mode,
+                mag_filter: wgpu::FilterMode::Linear,
+                min_filter: wgpu::FilterMode::Linear,
+                ..wgpu::SamplerDescriptor::default()
+            })
+        };
+        let linear_clamp = linear("linear_clamp", wgpu::AddressMode::ClampToEdge);
+        let linear_repeat = linear("linear_repeat", wgpu::AddressMode::Repeat);
         let timed = features.contains(wgpu::Features::TIMESTAMP_QUERY);
         let timestamp_period_ns = timed.then(|| queue.get_timestamp_period());
         Ok(Self {
@@ -163,6 +171,7 @@ impl Gpu {
             info,
             table_format,
             linear_clamp,
+            linear_repeat,
             timestamp_period_ns,
             lost,
         })
@@ -222,6 +231,44 @@ impl Gpu {
         shape: Shape,
         texel: Texel,
     ) -> wgpu::TextureView {
+        let usage = wgpu::TextureUsages::STORAGE_BINDING | wgpu::TextureUsages::COPY_SRC;
+        self.texture(
+            label,
+            [width, height, depth_or_array_layers],
+            (shape, texel),
+            usage,
+        )
+        .1
+    }
+
+    /// A texture that holds `bytes`, rows from the top, layers or slices one after the other.
+    pub(crate) fn holding(
+        &self,
+        label: &str,
+        [width, height, depth]: [u32; 3],
+        shape: Shape,
+        texel: Texel,
+        bytes: &[u8],
+    ) -> wgpu::TextureView {
+        let usage = wgpu::TextureUsages::COPY_DST | wgpu::TextureUsages::COPY_SRC;
+        let (texture, view) = self.texture(label, [width, height, depth], (shape, texel), usage);
+        let layout = wgpu::TexelCopyBufferLayout {
+            offset: 0,
+            bytes_per_row: self.format(texel).block_copy_size(None).map(|size| size * width),
+            rows_per_image: Some(height),
+        };
+        self.queue
+            .write_texture(texture.as_image_copy(), bytes, layout, texture.size());
+        view
+    }
+
+    fn texture(
+        &self,
+        label: &str,
+        [width, height, depth_or_array_layers]: [u32; 3],
+        (shape, texel): (Shape, Texel),
+        usage: wgpu::TextureUsages,
+    ) -> (wgpu::Texture, wgpu::TextureView) {
         let (dimension, seen_as) = match shape {
             Shape::Flat => (wgpu::TextureDimension::D2, wgpu::TextureViewDimension::D2),
             Shape::Layers => (wgpu::TextureDimension::D2, wgpu::TextureViewDimension::D2Array),
@@ -238,35 +285,19 @@ impl Gpu {
             sample_count: 1,
             dimension,
             format: self.format(texel),
-            usage: wgpu::TextureUsages::STORAGE_BINDING
-                | wgpu::TextureUsages::TEXTURE_BINDING
-                | wgpu::TextureUsages::COPY_SRC,
+            usage: usage | wgpu::TextureUsages::TEXTURE_BINDING,
             view_formats: &[],
         });
-        texture.create_view(&wgpu::TextureViewDescriptor {
+        let view = texture.create_view(&wgpu::TextureViewDescriptor {
             dimension: Some(seen_as),
             ..wgpu::TextureViewDescriptor::default()
-        })
+        });
+        (texture, view)
     }
 
     /// A table that holds a picture, rows from the top.
     pub(crate) fn picture(&self, label: &str, width: u32, texels: &[[f32; 3]]) -> wgpu::TextureView {
         let height = u32::try_from(texels.len()).unwrap_or(0) / width;
-        let size = wgpu::Extent3d {
-            width,
-            height,
-            depth_or_array_layers: 1,
-        };
-        let texture = self.device.create_texture(&wgpu::TextureDescriptor {
-            label: Some(label),
-            size,
-            mip_level_count: 1,
-            sample_count: 1,
-            dimension: wgpu::TextureDimension::D2,
-            format: self.table_format,
-            usage: wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_DST,
-            view_formats: &[],
-        });
         let whole: Vec<[f32; 4]> = texels.iter().map(|[r, g, b]| [*r, *g, *b, 1.0]).collect();
         let bytes = if self.table_format == wgpu::TextureFormat::Rgba32Float {
             bytemuck::cast_slice(&whole).to_vec()
@@ -274,14 +305,7 @@ impl Gpu {
             let halves: Vec<half::f16> = whole.iter().flatten().map(|v| half::f16::from_f32(*v)).collect();
             bytemuck::cast_slice(&halves).to_vec()
         };
-        let layout = wgpu::TexelCopyBufferLayout {
-            offset: 0,
-            bytes_per_row: u32::try_from(bytes.len()).ok().map(|all| all / height),
-            rows_per_image: None,
-        };
-        self.queue
-            .write_texture(texture.as_image_copy(), &bytes, layout, size);
-        texture.create_view(&wgpu::TextureViewDescriptor::default())
+        self.holding(label, [width, height, 1], Shape::Flat, Texel::Float, &bytes)
     }
 
     /// Waits for all submitted work, then hands the first `size` bytes of each mappable buffer to `take`.

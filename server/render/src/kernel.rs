@@ -20,6 +20,8 @@ pub(crate) enum Bind<'a> {
     Buffer(&'a wgpu::Buffer),
     Table(&'a wgpu::TextureView),
     LinearClamp,
+    #[expect(dead_code, reason = "the march through clouds binds it")]
+    LinearRepeat,
 }
 
 fn layout_entry(binding: u32, kind: Kind, gpu: &Gpu) -> wgpu::BindGroupLayoutEntry {
@@ -187,6 +189,7 @@ impl<'a> Recorder<'a> {
                     Bind::Buffer(buffer) => buffer.as_entire_binding(),
                     Bind::Table(view) => wgpu::BindingResource::TextureView(view),
                     Bind::LinearClamp => wgpu::BindingResource::Sampler(&self.gpu.linear_clamp),
+                    Bind::LinearRepeat => wgpu::BindingResource::Sampler(&self.gpu.linear_repeat),
                 },
             })
             .collect();

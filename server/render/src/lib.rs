@@ -5,6 +5,7 @@
 
 mod camera;
 mod catalogue;
+mod cloud_noise;
 mod colour;
 mod cpu;
 mod engine;
@@ -20,6 +21,7 @@ mod method;
 mod moon_face;
 mod moonlight;
 mod night;
+mod noise_cache;
 mod passes;
 mod phase;
 mod probe_job;
@@ -27,6 +29,7 @@ mod quadrature;
 mod renderer;
 mod screen;
 mod shader;
+mod spread;
 mod starfield;
 mod sunlight;
 #[cfg(test)]
@@ -35,4 +38,5 @@ mod uniforms;
 
 pub use error::Error;
 pub use gpu::{AdapterChoice, adapters};
+pub use noise_cache::DiskCache;
 pub use renderer::{Renderer, RendererSettings};

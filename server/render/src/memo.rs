@@ -2,6 +2,7 @@
 
 use std::{
     collections::VecDeque,
+    convert::Infallible,
     hash::{DefaultHasher, Hash, Hasher},
     sync::Arc,
 };
@@ -35,16 +36,26 @@ impl<T> Memo<T> {
 
     /// The output with this fingerprint, made if it is not there.
     pub(crate) fn get_or(&mut self, fingerprint: Fingerprint, make: impl FnOnce() -> T) -> Arc<T> {
+        let Ok(output) = self.try_get_or(fingerprint, || Ok::<_, Infallible>(make()));
+        output
+    }
+
+    /// As [`Self::get_or`], of what can fail to be made; a failure is not kept.
+    pub(crate) fn try_get_or<E>(
+        &mut self,
+        fingerprint: Fingerprint,
+        make: impl FnOnce() -> Result<T, E>,
+    ) -> Result<Arc<T>, E> {
         if let Some(at) = self.kept.iter().position(|(f, _)| *f == fingerprint)
             && let Some(entry) = self.kept.remove(at)
         {
             let output = Arc::clone(&entry.1);
             self.kept.push_front(entry);
-            return output;
+            return Ok(output);
         }
-        let output = Arc::new(make());
+        let output = Arc::new(make()?);
         self.kept.push_front((fingerprint, Arc::clone(&output)));
         self.kept.truncate(self.most);
-        output
+        Ok(output)
     }
 }

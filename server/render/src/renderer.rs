@@ -6,6 +6,7 @@ use crate::{
     frame_job::{FrameJob, TileBudget},
     gpu::AdapterChoice,
     kept_frames::KeptFrames,
+    noise_cache::DiskCache,
     probe_job::ProbeJob,
 };
 use futures_channel::oneshot;
@@ -35,6 +36,8 @@ pub struct RendererSettings {
     pub adapter: AdapterChoice,
     /// Orders that may wait or run at once; more are refused.
     pub queue_places: usize,
+    /// Where the noise of clouds is kept between starts. Without it, it is made at each start.
+    pub disk_cache: Option<DiskCache>,
 }
 
 impl Default for RendererSettings {
@@ -42,6 +45,7 @@ impl Default for RendererSettings {
         Self {
             adapter: AdapterChoice::default(),
             queue_places: 64,
+            disk_cache: None,
         }
     }
 }
@@ -135,7 +139,7 @@ impl Renderer {
         let (opened, first) = mpsc::channel();
         let places = settings.queue_places.max(1);
         let handle = thread::Builder::new().name("renderer".into()).spawn(move || {
-            let engine = match Engine::open(&settings.adapter, 0) {
+            let engine = match Engine::open(&settings, 0) {
                 Ok(engine) => engine,
                 Err(error) => return drop(opened.send(Err(error))),
             };
@@ -147,7 +151,7 @@ impl Renderer {
                 mean_ms: Mutex::new(100.0),
             };
             let shared = Arc::new(shared);
-            let worker = Worker::new(settings.adapter, engine, Arc::clone(&shared));
+            let worker = Worker::new(settings, engine, Arc::clone(&shared));
             if opened.send(Ok(shared)).is_ok() {
                 worker.run(&orders);
             }
@@ -276,7 +280,7 @@ const MOST_FAILURES: u32 = 2;
 
 /// What lives on the thread.
 struct Worker {
-    adapter: AdapterChoice,
+    settings: RendererSettings,
     /// None after a failure, until the next order opens it anew.
     engine: Option<Engine>,
     shared: Arc<Shared>,
@@ -285,9 +289,9 @@ struct Worker {
 }
 
 impl Worker {
-    fn new(adapter: AdapterChoice, engine: Engine, shared: Arc<Shared>) -> Self {
+    fn new(settings: RendererSettings, engine: Engine, shared: Arc<Shared>) -> Self {
         Self {
-            adapter,
+            settings,
             engine: Some(engine),
             shared,
             budget: TileBudget::default(),
@@ -346,7 +350,7 @@ impl Worker {
 
     /// The order again if there is more to do; the order and the reason if the device failed.
     fn advance(&mut self, work: Work) -> Result<Option<Work>, (Work, Error)> {
-        let engine = match open(&mut self.engine, &self.adapter, &self.shared) {
+        let engine = match open(&mut self.engine, &self.settings, &self.shared) {
             Ok(engine) => engine,
             Err(error) => return Err((work, error)),
         };
@@ -378,7 +382,7 @@ impl Worker {
 /// The engine, opened anew where it was lost.
 fn open<'a>(
     engine: &'a mut Option<Engine>,
-    adapter: &AdapterChoice,
+    settings: &RendererSettings,
     shared: &Shared,
 ) -> Result<&'a mut Engine, Error> {
     let open = match engine.take() {
@@ -386,7 +390,7 @@ fn open<'a>(
         None => {
             let mut device = shared.device.lock().unwrap_or_else(PoisonError::into_inner);
             device.recoveries += 1;
-            Engine::open(adapter, device.recoveries)?
+            Engine::open(settings, device.recoveries)?
         }
     };
     Ok(engine.insert(open))

@@ -7,6 +7,8 @@ pub(crate) mod geometry;
 #[cfg(test)]
 pub(crate) mod moon;
 #[cfg(test)]
+pub(crate) mod noise;
+#[cfg(test)]
 pub(crate) mod phase;
 #[cfg(test)]
 pub(crate) mod scattering;

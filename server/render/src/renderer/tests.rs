@@ -18,14 +18,14 @@ fn order(height_px: u32, output: Output) -> FrameOrder {
 
 /// A worker with a device of its own.
 fn worker() -> Worker {
-    let engine = Engine::open(&AdapterChoice::default(), 0).unwrap();
+    let engine = Engine::open(&RendererSettings::default(), 0).unwrap();
     let shared = Shared {
         places: 4,
         taken: AtomicUsize::new(0),
         device: Mutex::new(engine.gpu.info.clone()),
         mean_ms: Mutex::new(100.0),
     };
-    Worker::new(AdapterChoice::default(), engine, Arc::new(shared))
+    Worker::new(RendererSettings::default(), engine, Arc::new(shared))
 }
 
 type Waiting<T> = oneshot::Receiver<Result<T, RenderError>>;

@@ -14,7 +14,7 @@ use welkin_scene::{
 fn radiance(table_format: wgpu::TextureFormat) -> Vec<f32> {
     let mut gpu = Gpu::open(&AdapterChoice::default()).unwrap();
     gpu.table_format = table_format;
-    let mut engine = Engine::on(gpu, 0).unwrap();
+    let mut engine = Engine::on(gpu, None, 0).unwrap();
     let mut scene = Scene::default();
     scene.sun.disc = false;
     let mut job = FrameJob::new(FrameOrder {

@@ -15,18 +15,19 @@ mod half_tables;
 mod layout;
 mod lens;
 mod night;
+mod noise;
 mod phase;
 mod scattering;
 mod tables;
 
-use crate::{engine::Engine, gpu::AdapterChoice, gpu::Gpu, shader::Shader};
+use crate::{engine::Engine, gpu::Gpu, renderer::RendererSettings, shader::Shader};
 use std::sync::{LazyLock, Mutex, MutexGuard, PoisonError};
 use wgpu::{BindGroupEntry, BindingResource, BufferUsages};
 
 /// One device for all tests.
 pub(crate) fn engine() -> MutexGuard<'static, Engine> {
     static ENGINE: LazyLock<Mutex<Engine>> =
-        LazyLock::new(|| Mutex::new(Engine::open(&AdapterChoice::default(), 0).unwrap()));
+        LazyLock::new(|| Mutex::new(Engine::open(&RendererSettings::default(), 0).unwrap()));
     ENGINE.lock().unwrap_or_else(PoisonError::into_inner)
 }
 

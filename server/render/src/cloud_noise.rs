@@ -1,0 +1,171 @@
+//! The noise that clouds are made of: textures that depend on seeds and frequencies alone. Each is computed once, kept on
+//! the device while it is used, and kept on disk between starts.
+
+use crate::{
+    error::Error,
+    gpu::{Gpu, Shape},
+    kernel::{Bind, Kernel, Recorder},
+    memo::{Fingerprint, Memo},
+    noise_cache::DiskCache,
+    passes::{
+        Table,
+        cloud_curl::cloud_curl,
+        cloud_detail::cloud_detail,
+        cloud_shape::{ShapeFrequencies, cloud_shape},
+        cloud_sheet::cloud_sheet,
+        cloud_weather::cloud_weather,
+    },
+    shader::{Shader, Texel},
+    uniforms::Part,
+};
+use sha2::{Digest, Sha256};
+use std::sync::Arc;
+
+/// How a texture is made: its shader writes four floats a texel, and these become bytes.
+pub(crate) struct Recipe {
+    pub(crate) shader: &'static Shader,
+    pub(crate) uniform: Part,
+    pub(crate) size: [u32; 3],
+    pub(crate) shape: Shape,
+    pub(crate) to_bytes: fn(&[[f32; 4]]) -> Vec<u8>,
+}
+
+/// The textures, RGBA of a byte each, all of which close on themselves: sample them with a sampler that repeats.
+pub(crate) struct CloudNoise {
+    shape: Memo<Table>,
+    detail: Memo<Table>,
+    curl: Memo<Table>,
+    weather: Memo<Table>,
+    sheet: Memo<Table>,
+    disk: Option<DiskCache>,
+}
+
+#[cfg_attr(not(test), expect(dead_code, reason = "the march through clouds reads them"))]
+impl CloudNoise {
+    pub(crate) const fn new(disk: Option<DiskCache>) -> Self {
+        Self {
+            shape: Memo::new(2),
+            detail: Memo::new(4),
+            curl: Memo::new(4),
+            weather: Memo::new(4),
+            sheet: Memo::new(4),
+            disk,
+        }
+    }
+
+    /// A volume; see [`cloud_shape`].
+    pub(crate) fn shape(
+        &mut self,
+        gpu: &Gpu,
+        seed: u32,
+        frequencies: ShapeFrequencies,
+    ) -> Result<Arc<Table>, Error> {
+        made(
+            &mut self.shape,
+            self.disk.as_ref(),
+            gpu,
+            &cloud_shape(seed, frequencies),
+        )
+    }
+
+    /// A volume; see [`cloud_detail`].
+    pub(crate) fn detail(&mut self, gpu: &Gpu, seed: u32, frequency: u32) -> Result<Arc<Table>, Error> {
+        made(
+            &mut self.detail,
+            self.disk.as_ref(),
+            gpu,
+            &cloud_detail(seed, frequency),
+        )
+    }
+
+    /// See [`cloud_curl`].
+    pub(crate) fn curl(&mut self, gpu: &Gpu, seed: u32) -> Result<Arc<Table>, Error> {
+        made(&mut self.curl, self.disk.as_ref(), gpu, &cloud_curl(seed))
+    }
+
+    /// See [`cloud_weather`].
+    pub(crate) fn weather(&mut self, gpu: &Gpu, seed: u32) -> Result<Arc<Table>, Error> {
+        made(&mut self.weather, self.disk.as_ref(), gpu, &cloud_weather(seed))
+    }
+
+    /// See [`cloud_sheet`].
+    pub(crate) fn sheet(&mut self, gpu: &Gpu, seed: u32) -> Result<Arc<Table>, Error> {
+        made(&mut self.sheet, self.disk.as_ref(), gpu, &cloud_sheet(seed))
+    }
+}
+
+fn made(
+    memo: &mut Memo<Table>,
+    disk: Option<&DiskCache>,
+    gpu: &Gpu,
+    recipe: &Recipe,
+) -> Result<Arc<Table>, Error> {
+    let name = recipe.shader.name;
+    let made_from = Fingerprint::of((name, &recipe.uniform));
+    memo.try_get_or(made_from, || {
+        let bytes = bytes(gpu, disk, recipe)?;
+        let view = gpu.holding(name, recipe.size, recipe.shape, Texel::Byte, &bytes);
+        Ok(Table { view, made_from })
+    })
+}
+
+/// From disk where they are there, else computed and put there.
+pub(crate) fn bytes(gpu: &Gpu, disk: Option<&DiskCache>, recipe: &Recipe) -> Result<Vec<u8>, Error> {
+    let Some(disk) = disk else {
+        return computed(gpu, recipe);
+    };
+    let (name, key) = (recipe.shader.name, key(gpu, recipe));
+    let size: usize = recipe.size.iter().map(|side| *side as usize).product();
+    if let Some(kept) = disk.find(name, &key, 4 * size) {
+        return Ok(kept);
+    }
+    let bytes = computed(gpu, recipe)?;
+    disk.keep(name, &key, &bytes);
+    Ok(bytes)
+}
+
+/// Of all that the bytes depend on. Adapters differ in the last bits of a sine, and releases in what becomes of the
+/// floats.
+fn key(gpu: &Gpu, recipe: &Recipe) -> [u8; 32] {
+    let mut digest = Sha256::new();
+    let size = recipe.size.map(u32::to_le_bytes);
+    for part in [
+        env!("CARGO_PKG_VERSION").as_bytes(),
+        gpu.info.adapter.as_bytes(),
+        gpu.info.driver.as_bytes(),
+        recipe.shader.wgsl.as_bytes(),
+        &recipe.uniform.0,
+        size.as_flattened(),
+    ] {
+        digest.update((part.len() as u64).to_le_bytes());
+        digest.update(part);
+    }
+    digest.finalize().into()
+}
+
+fn computed(gpu: &Gpu, recipe: &Recipe) -> Result<Vec<u8>, Error> {
+    let name = recipe.shader.name;
+    let size = 16 * recipe.size.iter().map(|side| u64::from(*side)).product::<u64>();
+    let texels = gpu.buffer(
+        name,
+        size,
+        wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_SRC,
+    );
+    let readable = gpu.buffer(
+        name,
+        size,
+        wgpu::BufferUsages::COPY_DST | wgpu::BufferUsages::MAP_READ,
+    );
+    let uniform = recipe.uniform.upload(gpu, name);
+    let kernel = Kernel::new(gpu, recipe.shader);
+    let mut recorder = Recorder::new(gpu);
+    let binds = [Bind::Buffer(&uniform), Bind::Buffer(&texels)];
+    recorder.dispatch(&kernel, &binds, recipe.size);
+    recorder
+        .encoder
+        .copy_buffer_to_buffer(&texels, 0, &readable, 0, size);
+    let (bytes, _) = recorder.finish(&[(&readable, size)], |bytes| {
+        (recipe.to_bytes)(bytemuck::cast_slice(bytes[0]))
+    })?;
+    Ok(bytes)
+}
