@@ -7,7 +7,7 @@ mod settings;
 
 use commands::Failure;
 use std::{process::ExitCode, sync::Arc};
-use welkin_render::{AdapterChoice, Renderer, RendererSettings};
+use welkin_render::{AdapterChoice, DiskCache, Renderer, RendererSettings};
 use welkin_scene::renderer::{DeviceInfo, Render};
 
 fn main() -> ExitCode {
@@ -23,6 +23,10 @@ fn open_renderer(settings: &settings::Settings) -> Result<Arc<dyn Render>, Failu
     let renderer = Renderer::start(RendererSettings {
         adapter,
         queue_places: settings.queue_places,
+        disk_cache: settings.cache_folder().map(|folder| DiskCache {
+            folder: folder.join("noise"),
+            most_bytes: settings.disk_cache_bytes,
+        }),
     });
     renderer
         .map(|renderer| Arc::new(renderer) as Arc<dyn Render>)

@@ -1,12 +1,13 @@
 //! Settings: flags go before the environment (`WELKIN_…`), that before a TOML file, that before defaults.
 
 use clap::{Args, ValueEnum};
+use etcetera::BaseStrategy;
 use figment::{
     Figment,
     providers::{Env, Format, Serialized, Toml},
 };
 use serde::{Deserialize, Serialize};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// Looked for in the working directory when no other file is named.
 const DEFAULT_FILE: &str = "welkin.toml";
@@ -17,6 +18,8 @@ const DEFAULT_FILE: &str = "welkin.toml";
 pub(crate) struct Settings {
     pub(crate) adapter: Option<String>,
     pub(crate) require_gpu: bool,
+    pub(crate) cache_dir: Option<PathBuf>,
+    pub(crate) disk_cache_bytes: u64,
     pub(crate) queue_places: usize,
     pub(crate) listen: String,
     pub(crate) cache_bytes: u64,
@@ -28,9 +31,11 @@ pub(crate) struct Settings {
 }
 
 /// Names of the settings, as the environment has them after `WELKIN_` (in capitals).
-const NAMES: [&str; 10] = [
+const NAMES: [&str; 12] = [
     "adapter",
     "require_gpu",
+    "cache_dir",
+    "disk_cache_bytes",
     "queue_places",
     "listen",
     "cache_bytes",
@@ -58,6 +63,8 @@ impl Default for Settings {
         Self {
             adapter: None,
             require_gpu: false,
+            cache_dir: None,
+            disk_cache_bytes: 268_435_456,
             queue_places: 64,
             listen: "127.0.0.1:8080".into(),
             cache_bytes: service.cache_bytes,
@@ -81,6 +88,14 @@ pub(crate) struct DeviceFlags {
     #[arg(long, num_args = 0..=1, default_missing_value = "true", value_name = "BOOL")]
     #[serde(skip_serializing_if = "Option::is_none")]
     require_gpu: Option<bool>,
+    /// Where the noise of clouds is kept between starts [default: welkin in the user's folder for caches]
+    #[arg(long, value_name = "FOLDER")]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    cache_dir: Option<PathBuf>,
+    /// The most that is kept there, bytes; 0 keeps nothing [default: 268435456]
+    #[arg(long, value_name = "BYTES")]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    disk_cache_bytes: Option<u64>,
 }
 
 /// Flags of `welkin serve`.
@@ -141,6 +156,16 @@ impl Settings {
         merged.extract().map_err(Box::new)
     }
 
+    /// Where files are kept between starts; none where nothing shall be, or the user has no such folder.
+    pub(crate) fn cache_folder(&self) -> Option<PathBuf> {
+        if self.disk_cache_bytes == 0 {
+            return None;
+        }
+        let users_own = || Some(etcetera::choose_base_strategy().ok()?.cache_dir().join("welkin"));
+        let named = self.cache_dir.clone().filter(|dir| !dir.as_os_str().is_empty());
+        named.or_else(users_own)
+    }
+
     /// The part that the service knows.
     pub(crate) fn service(&self, build: String) -> welkin_service::Settings {
         welkin_service::Settings {
@@ -198,6 +223,31 @@ mod tests {
     }
 
     #[test]
+    fn files_are_kept_where_the_user_says_or_keeps_such_things() {
+        Jail::expect_with(|jail| {
+            let load = |flags: &ServeFlags| Settings::load(None, flags).map_err(|e| *e);
+            jail.set_env("XDG_CACHE_HOME", "/caches");
+            let users_own = load(&ServeFlags::default())?.cache_folder();
+            if cfg!(target_os = "linux") {
+                assert_eq!(users_own, Some("/caches/welkin".into()));
+            }
+            jail.set_env("WELKIN_CACHE_DIR", "");
+            assert_eq!(load(&ServeFlags::default())?.cache_folder(), users_own);
+            jail.set_env("WELKIN_CACHE_DIR", "/elsewhere");
+            assert_eq!(
+                load(&ServeFlags::default())?.cache_folder(),
+                Some("/elsewhere".into())
+            );
+            let mut flags = ServeFlags::default();
+            flags.device.cache_dir = Some("here".into());
+            assert_eq!(load(&flags)?.cache_folder(), Some("here".into()));
+            flags.device.disk_cache_bytes = Some(0);
+            assert_eq!(load(&flags)?.cache_folder(), None);
+            Ok(())
+        });
+    }
+
+    #[test]
     fn what_is_wrong_is_named() {
         Jail::expect_with(|jail| {
             jail.create_file("other.toml", "max_viewrs = 3")?;
@@ -223,6 +273,9 @@ mod tests {
         for name in NAMES {
             let flag = format!("--{}", name.replace('_', "-"));
             let value = match &defaults[name] {
+                serde_json::Value::Null if name == "cache_dir" => {
+                    "welkin in the user's folder for caches".to_owned()
+                }
                 serde_json::Value::Null => "the fastest".to_owned(),
                 serde_json::Value::String(text) => text.clone(),
                 other => other.to_string(),

@@ -53,11 +53,7 @@ fn a_weather_report_becomes_a_scene() {
     let output = welkin(&["scene", "--metar", FOG, "--date", "2018-09-03"], "");
     let scene = Scene::from_value(&printed(&output)).unwrap();
     assert_eq!(scene.haze.unwrap().top_m, 150.0);
-    assert!(
-        said(&output).contains("not rendered: RED"),
-        "{}",
-        said(&output)
-    );
+    assert!(said(&output).contains("not rendered: RED"), "{}", said(&output));
     let place = ["--latitude-deg", "-60", "--longitude-deg", "-30.5"];
     let args = [
         &["scene", "--json", "--metar", "-", "--date", "2018-09-03"][..],
