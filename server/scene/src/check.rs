@@ -18,7 +18,7 @@ use serde_json::json;
 /// Highest camera, metres over the ground: a quarter of the way to the moon.
 const MAX_ALTITUDE_M: f64 = 1e8;
 /// A stereographic picture grows as tan(fov / 4), without end towards 360°.
-const MAX_STEREOGRAPHIC_FOV_DEG: f64 = 300.0;
+pub(crate) const MAX_STEREOGRAPHIC_FOV_DEG: f64 = 300.0;
 
 /// A document that is checked beyond its schema.
 pub(crate) trait Check {

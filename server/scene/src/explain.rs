@@ -32,7 +32,10 @@ pub(crate) fn explain(root: &Value, schema: &Value, pointer: &str, held: &Value,
             }
         }
         Value::Object(held) => {
-            let known = &schema["properties"];
+            // Anything goes, as in a patch.
+            let Some(known) = schema.get("properties") else {
+                return;
+            };
             for (name, value) in held {
                 if problems.is_full() {
                     return;

@@ -34,6 +34,7 @@ mod shape;
 mod solar;
 pub mod stars;
 pub mod sun;
+pub mod timeline;
 
 pub use airglow::Airglow;
 pub use assets::{AssetReference, SceneAssets, WeatherPicture, is_asset_name};
@@ -57,6 +58,8 @@ pub use probe::{Irradiance, ProbeAnswer, ProbeRequest, SunPlace};
 pub use problem::{Problem, SceneError};
 pub use schema::{
     frame_request_schema, metar_answer_schema, metar_request_schema, probe_request_schema, scene_schema,
+    timeline_schema,
 };
 pub use stars::{Orientation, Stars};
 pub use sun::{Sun, SunPosition};
+pub use timeline::Timeline;

@@ -8,7 +8,10 @@ use crate::{
     metar::MetarRequest,
     probe::ProbeRequest,
     problem::{Problem, Problems, SceneError, echo, member},
-    schema::{frame_request_schema, metar_request_schema, probe_request_schema, scene_schema},
+    schema::{
+        frame_request_schema, metar_request_schema, probe_request_schema, scene_schema, timeline_schema,
+    },
+    timeline::Timeline,
 };
 use jsonschema::Validator;
 use serde::de::DeserializeOwned;
@@ -37,6 +40,7 @@ impl Rules {
 
 static SCENE: LazyLock<Rules> = LazyLock::new(|| Rules::new(scene_schema()));
 static FRAME: LazyLock<Rules> = LazyLock::new(|| Rules::new(frame_request_schema()));
+static TIMELINE: LazyLock<Rules> = LazyLock::new(|| Rules::new(timeline_schema()));
 static METAR: LazyLock<Rules> = LazyLock::new(|| Rules::new(metar_request_schema()));
 static PROBE: LazyLock<Rules> = LazyLock::new(|| Rules::new(probe_request_schema()));
 
@@ -63,7 +67,7 @@ macro_rules! readable {
     )* };
 }
 
-readable!(Scene by SCENE, FrameRequest by FRAME, ProbeRequest by PROBE, MetarRequest by METAR);
+readable!(Scene by SCENE, FrameRequest by FRAME, ProbeRequest by PROBE, MetarRequest by METAR, Timeline by TIMELINE);
 
 fn read<T: DeserializeOwned + Check>(rules: &Rules, value: &Value) -> Result<T, SceneError> {
     if !rules.validator.is_valid(value) {

@@ -6,6 +6,7 @@ use crate::{
     frame::FrameRequest,
     metar::{MetarAnswer, MetarRequest},
     probe::ProbeRequest,
+    timeline::Timeline,
 };
 use schemars::{JsonSchema, Schema, generate::SchemaSettings, transform::RecursiveTransform};
 use serde_json::Value;
@@ -20,6 +21,12 @@ pub fn scene_schema() -> Value {
 #[must_use]
 pub fn frame_request_schema() -> Value {
     derive::<FrameRequest>()
+}
+
+/// The schema of [`Timeline`].
+#[must_use]
+pub fn timeline_schema() -> Value {
+    derive::<Timeline>()
 }
 
 /// The schema of [`MetarRequest`].

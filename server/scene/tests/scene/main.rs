@@ -16,3 +16,6 @@ mod properties;
 mod schemas;
 mod strategies;
 mod sun;
+mod timeline;
+mod timeline_random;
+mod timeline_sky;
