@@ -1,0 +1,15 @@
+//! The store in folders of its own: what it takes, what it refuses, and what it never touches.
+#![allow(
+    clippy::unwrap_used,
+    clippy::expect_used,
+    clippy::cast_possible_truncation,
+    reason = "tests fail by panicking; their numbers are small"
+)]
+
+mod concurrent;
+mod files;
+mod limits;
+mod pictures;
+mod refusals;
+mod sandbox;
+mod scenes;
