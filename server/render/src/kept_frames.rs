@@ -37,8 +37,9 @@ impl KeptFrames {
         if bytes(frame) > MOST_BYTES {
             return;
         }
-        // Who waited for it is not part of what was asked.
+        // Who waited for it is not part of what was asked, and pixels of assets are not needed to tell them apart.
         let order = FrameOrder {
+            assets: Arc::new(order.assets.without_pixels()),
             priority: Priority::Batch,
             ..order
         };

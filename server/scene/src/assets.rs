@@ -71,6 +71,24 @@ pub struct SceneAssets {
     pub weather_maps: BTreeMap<String, Arc<WeatherPicture>>,
 }
 
+impl SceneAssets {
+    /// Equal to this, and holds no pixels: for comparing later.
+    #[must_use]
+    pub fn without_pixels(&self) -> Self {
+        let bare = |(name, picture): (&String, &Arc<WeatherPicture>)| {
+            let rgba = Arc::default();
+            let picture = WeatherPicture {
+                rgba,
+                ..WeatherPicture::clone(picture)
+            };
+            (name.clone(), Arc::new(picture))
+        };
+        Self {
+            weather_maps: self.weather_maps.iter().map(bare).collect(),
+        }
+    }
+}
+
 /// A place in a scene where an asset is named.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct AssetReference<'a> {

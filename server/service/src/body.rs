@@ -1,4 +1,4 @@
-//! JSON bodies, checked before they are read.
+//! Bodies, checked before they are read.
 
 use crate::error::Error;
 use axum::{
@@ -38,24 +38,37 @@ impl<S: Send + Sync> FromRequest<S> for JsonText {
         {
             return Err(Error::MediaType { found });
         }
-        let seconds = request
-            .extensions()
-            .get::<BodyTimeout>()
-            .map_or(0, |timeout| timeout.0.as_secs());
-        let bytes = Bytes::from_request(request, state)
-            .await
-            .map_err(|rejection| refusal(&rejection, seconds))?;
+        let bytes = bounded(request, state, MAX_BODY_BYTES as u64).await?;
         String::from_utf8(bytes.into())
             .map(Self)
             .map_err(|e| Error::Body(format!("it is not UTF-8: {e}")))
     }
 }
 
-fn refusal(rejection: &BytesRejection, seconds: u64) -> Error {
+/// A body of bytes. One whose announced length is too large is not read at all.
+pub(crate) async fn read(request: Request, limit_bytes: u64) -> Result<Bytes, Error> {
+    let announced = request.headers().get(header::CONTENT_LENGTH);
+    let announced = announced.and_then(|length| length.to_str().ok()?.parse::<u64>().ok());
+    if announced.is_some_and(|length| length > limit_bytes) {
+        return Err(Error::BodyTooLarge { limit_bytes });
+    }
+    bounded(request, &(), limit_bytes).await
+}
+
+/// The router has set the limit; here it is for the message of the error.
+async fn bounded<S: Send + Sync>(request: Request, state: &S, limit_bytes: u64) -> Result<Bytes, Error> {
+    let seconds = request
+        .extensions()
+        .get::<BodyTimeout>()
+        .map_or(0, |timeout| timeout.0.as_secs());
+    Bytes::from_request(request, state)
+        .await
+        .map_err(|rejection| refusal(&rejection, limit_bytes, seconds))
+}
+
+fn refusal(rejection: &BytesRejection, limit_bytes: u64, seconds: u64) -> Error {
     if rejection.status() == StatusCode::PAYLOAD_TOO_LARGE {
-        return Error::BodyTooLarge {
-            limit_bytes: MAX_BODY_BYTES,
-        };
+        return Error::BodyTooLarge { limit_bytes };
     }
     let mut cause = rejection.source();
     while let Some(error) = cause {

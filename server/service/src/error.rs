@@ -3,6 +3,7 @@
 use axum::http::StatusCode;
 use serde::Serialize;
 use serde_json::Value;
+use welkin_assets::Error as AssetError;
 use welkin_encode::EncodeError;
 use welkin_scene::{
     ReportFault,
@@ -44,13 +45,28 @@ pub(crate) enum Error {
     Slow { seconds: u64 },
     /// The body is longer than allowed.
     #[error("a body may have {limit_bytes} bytes at most")]
-    BodyTooLarge { limit_bytes: usize },
+    BodyTooLarge { limit_bytes: u64 },
     /// The frame is larger than this server renders.
     #[error("{}", first_message(.0))]
     FrameTooLarge(Vec<Fault>),
     /// The body is not announced as JSON.
     #[error("send the body as application/json, not as {found}")]
     MediaType { found: String },
+    /// This server has no place for assets.
+    #[error("this server keeps no assets; started with --assets, it keeps them in the folder named there")]
+    NoAssets,
+    /// Not a file of the kind that it is sent as.
+    #[error("{0}")]
+    WrongFile(String),
+    /// A file of the right kind that cannot be used.
+    #[error("{0}")]
+    BadFile(String),
+    /// `If-Match` or `If-None-Match` does not hold.
+    #[error("the asset is not, or no more, what `If-Match` or `If-None-Match` take it for")]
+    Precondition,
+    /// The store of assets is full.
+    #[error("{0}")]
+    NoRoom(String),
     /// `/v1/live` was not called as a WebSocket.
     #[error("connect here with a WebSocket: {0}")]
     Upgrade(String),
@@ -142,6 +158,29 @@ impl From<SceneError> for Error {
     }
 }
 
+impl From<AssetError> for Error {
+    fn from(error: AssetError) -> Self {
+        match error {
+            AssetError::Unknown { kind, name } => Self::NotFound(format!("/v1/assets/{kind}/{name}")),
+            AssetError::NotPng => Self::WrongFile(error.to_string()),
+            AssetError::Name | AssetError::Side { .. } | AssetError::Damaged { .. } => {
+                Self::BadFile(error.to_string())
+            }
+            AssetError::TooLarge { limit_bytes } => Self::BodyTooLarge { limit_bytes },
+            AssetError::Full { .. } => Self::NoRoom(error.to_string()),
+            AssetError::Busy => Self::Busy {
+                what: error.to_string(),
+                retry_after_s: 5,
+            },
+            AssetError::Condition => Self::Precondition,
+            AssetError::Scene(error) => error.into(),
+            AssetError::Folder { .. } => Self::Internal {
+                cause: error.to_string(),
+            },
+        }
+    }
+}
+
 impl From<EncodeError> for Error {
     fn from(error: EncodeError) -> Self {
         match error {
@@ -187,13 +226,15 @@ impl Error {
     pub(crate) const fn status(&self) -> StatusCode {
         match self {
             Self::Malformed { .. } | Self::Body(_) => StatusCode::BAD_REQUEST,
-            Self::Invalid(_) | Self::Report(_) => StatusCode::UNPROCESSABLE_ENTITY,
-            Self::NotFound(_) => StatusCode::NOT_FOUND,
+            Self::Invalid(_) | Self::Report(_) | Self::BadFile(_) => StatusCode::UNPROCESSABLE_ENTITY,
+            Self::NotFound(_) | Self::NoAssets => StatusCode::NOT_FOUND,
             Self::Method { .. } => StatusCode::METHOD_NOT_ALLOWED,
             Self::NotAcceptable(_) => StatusCode::NOT_ACCEPTABLE,
             Self::Slow { .. } => StatusCode::REQUEST_TIMEOUT,
             Self::BodyTooLarge { .. } | Self::FrameTooLarge(_) => StatusCode::PAYLOAD_TOO_LARGE,
-            Self::MediaType { .. } => StatusCode::UNSUPPORTED_MEDIA_TYPE,
+            Self::MediaType { .. } | Self::WrongFile(_) => StatusCode::UNSUPPORTED_MEDIA_TYPE,
+            Self::Precondition => StatusCode::PRECONDITION_FAILED,
+            Self::NoRoom(_) => StatusCode::INSUFFICIENT_STORAGE,
             Self::Upgrade(_) => StatusCode::UPGRADE_REQUIRED,
             Self::Busy { .. } | Self::Device { .. } | Self::Stopped => StatusCode::SERVICE_UNAVAILABLE,
             Self::Internal { .. } => StatusCode::INTERNAL_SERVER_ERROR,

@@ -2,6 +2,7 @@
 //!
 //! [`app`] is a router that tests call without a socket; [`serve`] puts it on one.
 
+mod assets;
 mod body;
 mod discovery;
 mod error;

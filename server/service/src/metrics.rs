@@ -8,6 +8,7 @@ use axum_prometheus::{
     metrics_exporter_prometheus::{Matcher, PrometheusBuilder, PrometheusHandle},
 };
 use std::{borrow::Cow, sync::OnceLock};
+use welkin_assets::Usage;
 use welkin_scene::{
     frame::{Format, Quality},
     renderer::{Frame, RenderError},
@@ -20,6 +21,8 @@ const ENCODE: &str = "welkin_encode_seconds";
 const REFUSALS: &str = "welkin_render_refusals_total";
 const IN_WORK: &str = "welkin_frames_in_work";
 const VIEWERS: &str = "welkin_live_viewers";
+const ASSETS: &str = "welkin_assets";
+const ASSETS_BYTES: &str = "welkin_assets_bytes";
 const LIVE_FRAMES: &str = "welkin_live_frames_total";
 
 /// From a tenth of a millisecond, a table pass on a GPU, to minutes, a 16k frame on a CPU.
@@ -62,6 +65,12 @@ fn install() -> Result<PrometheusHandle, String> {
     describe_histogram!(ENCODE, Unit::Seconds, "Time to make a file of a frame");
     describe_gauge!(IN_WORK, "Frames ordered and not yet rendered");
     describe_gauge!(VIEWERS, "Live viewers");
+    describe_gauge!(ASSETS, "Assets in the store, as of the last change");
+    describe_gauge!(
+        ASSETS_BYTES,
+        Unit::Bytes,
+        "Bytes of all assets, as of the last change"
+    );
     Ok(handle)
 }
 
@@ -112,6 +121,15 @@ pub(crate) fn refused(error: &RenderError) {
         RenderError::Stopped => "stopped",
     };
     counter!(REFUSALS, "reason" => reason).increment(1);
+}
+
+#[allow(
+    clippy::cast_precision_loss,
+    reason = "2^53 bytes are more than a store holds"
+)]
+pub(crate) fn assets(used: Usage) {
+    gauge!(ASSETS).set(f64::from(used.count));
+    gauge!(ASSETS_BYTES).set(used.bytes as f64);
 }
 
 /// Counts itself in the gauge while it lives.

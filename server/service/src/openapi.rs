@@ -1,6 +1,6 @@
 //! The OpenAPI document: the routes as they are annotated, the schemas as the scene crate derives them.
 
-use crate::{error::Error, live::document as live, problem::component};
+use crate::{assets::document as assets, error::Error, live::document as live, problem::component};
 use axum::{
     Json,
     http::{HeaderValue, StatusCode},
@@ -21,18 +21,20 @@ pub(crate) const DOCS_POLICY: HeaderValue = HeaderValue::from_static(
 );
 
 /// All statuses that a problem may have.
-const PROBLEMS: [StatusCode; 11] = [
+const PROBLEMS: [StatusCode; 13] = [
     StatusCode::BAD_REQUEST,
     StatusCode::NOT_FOUND,
     StatusCode::METHOD_NOT_ALLOWED,
     StatusCode::NOT_ACCEPTABLE,
     StatusCode::REQUEST_TIMEOUT,
+    StatusCode::PRECONDITION_FAILED,
     StatusCode::PAYLOAD_TOO_LARGE,
     StatusCode::UNSUPPORTED_MEDIA_TYPE,
     StatusCode::UNPROCESSABLE_ENTITY,
     StatusCode::UPGRADE_REQUIRED,
     StatusCode::INTERNAL_SERVER_ERROR,
     StatusCode::SERVICE_UNAVAILABLE,
+    StatusCode::INSUFFICIENT_STORAGE,
 ];
 
 #[derive(OpenApi)]
@@ -50,6 +52,10 @@ pub(crate) struct Refusals;
 pub(crate) struct Busy;
 /// What is said of a name that does not exist.
 pub(crate) struct Missing;
+/// What is said where a condition does not hold.
+pub(crate) struct Conditional;
+/// What is said where nothing more can be stored.
+pub(crate) struct NoRoom;
 /// What is said where a WebSocket is expected.
 pub(crate) struct NoSocket;
 
@@ -57,8 +63,9 @@ type Responses = BTreeMap<String, RefOr<Response>>;
 
 impl IntoResponses for Refusals {
     fn responses() -> Responses {
-        let refused =
-            |status: &&StatusCode| status.is_client_error() && !matches!(status.as_u16(), 404 | 405 | 426);
+        let refused = |status: &&StatusCode| {
+            status.is_client_error() && !matches!(status.as_u16(), 404 | 405 | 412 | 426)
+        };
         refer(PROBLEMS.iter().filter(refused))
     }
 }
@@ -72,6 +79,18 @@ impl IntoResponses for Busy {
 impl IntoResponses for Missing {
     fn responses() -> Responses {
         refer(&[StatusCode::NOT_FOUND])
+    }
+}
+
+impl IntoResponses for Conditional {
+    fn responses() -> Responses {
+        refer(&[StatusCode::PRECONDITION_FAILED])
+    }
+}
+
+impl IntoResponses for NoRoom {
+    fn responses() -> Responses {
+        refer(&[StatusCode::INSUFFICIENT_STORAGE])
     }
 }
 
@@ -117,6 +136,8 @@ pub(crate) fn complete(routes: &utoipa::openapi::OpenApi, build: &str) -> Result
             "Presets",
             json!({"type": "array", "items": {"$ref": "#/components/schemas/Preset"}}),
         ),
+        ("Asset", assets::asset_schema()),
+        ("Assets", assets::list_schema()),
         ("LiveMessage", live::message_schema()),
         ("LiveAnswer", live::answer_schema()),
     ];

@@ -7,7 +7,7 @@ use crate::{
     state::Service,
 };
 use axum::{Json, extract::State};
-use welkin_scene::{ProbeAnswer, ProbeRequest};
+use welkin_scene::{ProbeAnswer, ProbeRequest, renderer::ProbeOrder};
 
 /// Radiance, transmittance and distance at exact directions, and the light that falls on the observer.
 #[utoipa::path(
@@ -24,7 +24,9 @@ pub(crate) async fn post_probe(
     JsonText(body): JsonText,
 ) -> Result<Json<ProbeAnswer>, Error> {
     let request = ProbeRequest::from_json(&body)?;
-    let answer = service.renderer.probe(request.into()).await;
+    let assets = service.assets_of(&request.scene).await;
+    let assets = assets.map_err(|e| e.within("/scene"))?;
+    let answer = service.renderer.probe(ProbeOrder { request, assets }).await;
     answer.map(Json).map_err(|e| {
         crate::metrics::refused(&e);
         Error::from_render(e, service.renderer.device().max_side_px)

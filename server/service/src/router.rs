@@ -1,6 +1,7 @@
 //! The routes, and what is laid round all of them.
 
 use crate::{
+    assets,
     body::{BodyTimeout, MAX_BODY_BYTES},
     discovery,
     error::Error,
@@ -30,6 +31,9 @@ use utoipa::OpenApi;
 use utoipa_axum::{router::OpenApiRouter, routes};
 use utoipa_swagger_ui::{Config, SwaggerUi};
 
+/// What a link must carry for a file to arrive in time, bytes/s. A slower one would keep others waiting.
+const SLOWEST_UPLOAD: u64 = 1 << 20;
+
 /// The service's routes; call it with `tower::ServiceExt::oneshot`, or serve it.
 ///
 /// # Errors
@@ -37,7 +41,8 @@ use utoipa_swagger_ui::{Config, SwaggerUi};
 pub fn app(service: Service) -> Result<Router, crate::StartError> {
     let start = |error: Error| crate::StartError::Setup(error.cause().unwrap_or_default().to_owned());
     metrics::recorder().map_err(start)?;
-    let (routes, described) = documented().split_for_parts();
+    service.assets.count();
+    let (routes, described) = documented(&service).split_for_parts();
     let document = Arc::new(openapi::complete(&described, &service.settings.build).map_err(start)?);
     let docs: Router<Service> = SwaggerUi::new("/docs")
         .config(Config::from("/openapi.json"))
@@ -46,7 +51,6 @@ pub fn app(service: Service) -> Result<Router, crate::StartError> {
         header::CONTENT_SECURITY_POLICY,
         openapi::DOCS_POLICY,
     ));
-    let body_timeout = service.settings.body_timeout;
     let request_id = HeaderName::from_static("x-request-id");
     let nosniff = HeaderValue::from_static("nosniff");
     Ok(routes
@@ -74,16 +78,14 @@ pub fn app(service: Service) -> Result<Router, crate::StartError> {
                 ))
                 .layer(from_fn(problem::answer))
                 .layer(CatchPanicLayer::custom(problem::from_panic))
-                .layer(Extension(document))
-                .layer(Extension(BodyTimeout(body_timeout)))
-                .layer(RequestBodyDeadlineLayer::new(body_timeout))
-                .layer(DefaultBodyLimit::max(MAX_BODY_BYTES)),
+                .layer(Extension(document)),
         )
         .with_state(service))
 }
 
-fn documented() -> OpenApiRouter<Service> {
-    OpenApiRouter::with_openapi(openapi::Description::openapi())
+fn documented(service: &Service) -> OpenApiRouter<Service> {
+    let timeout = service.settings.body_timeout;
+    let documents = OpenApiRouter::with_openapi(openapi::Description::openapi())
         .routes(routes!(web::index))
         .routes(routes!(frames::get_frame, frames::post_frame))
         .routes(routes!(live::live))
@@ -98,7 +100,33 @@ fn documented() -> OpenApiRouter<Service> {
         .routes(routes!(openapi::openapi))
         .routes(routes!(operations::health))
         .routes(routes!(operations::ready))
-        .routes(routes!(operations::numbers))
+        .routes(routes!(operations::numbers));
+    let files = OpenApiRouter::new()
+        .routes(routes!(assets::list_all))
+        .routes(routes!(assets::list_kind))
+        .routes(routes!(
+            assets::get_asset,
+            assets::put_asset,
+            assets::delete_asset
+        ));
+    let file_bytes = service
+        .assets
+        .store()
+        .map_or(0, |store| store.limits().max_asset_bytes);
+    let file_timeout = timeout + Duration::from_secs(file_bytes / SLOWEST_UPLOAD);
+    bounded(documents, timeout, MAX_BODY_BYTES as u64).merge(bounded(files, file_timeout, file_bytes))
+}
+
+/// Routes whose bodies are no longer than this, in bytes and in time.
+fn bounded(routes: OpenApiRouter<Service>, timeout: Duration, bytes: u64) -> OpenApiRouter<Service> {
+    routes.layer(
+        ServiceBuilder::new()
+            .layer(Extension(BodyTimeout(timeout)))
+            .layer(RequestBodyDeadlineLayer::new(timeout))
+            .layer(DefaultBodyLimit::max(
+                usize::try_from(bytes).unwrap_or(usize::MAX),
+            )),
+    )
 }
 
 /// Pictures and radiance are compressed by their format or not worth the time.

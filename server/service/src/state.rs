@@ -1,6 +1,7 @@
 //! What the handlers share.
 
 use crate::{
+    assets::Shelf,
     error::Error,
     frames::picture::Picture,
     metrics::{self, Counted},
@@ -19,6 +20,8 @@ use welkin_scene::renderer::{Frame, FrameOrder, Output, Render};
 const BYTES_PER_PERMIT: u64 = 1024;
 /// Live previews rendered at once; the others wait in line, so that none starves.
 const LIVE_PREVIEWS: usize = 4;
+/// Files taken in at once; each is held in memory until it is checked and stored.
+const UPLOADS: u64 = 4;
 /// Live refinements rendered at once.
 const LIVE_REFINEMENTS: usize = 2;
 
@@ -27,10 +30,12 @@ const LIVE_REFINEMENTS: usize = 2;
 pub struct Service {
     pub(crate) renderer: Arc<dyn Render>,
     pub(crate) settings: Arc<Settings>,
+    pub(crate) assets: Shelf,
     pub(crate) pictures: Cache<[u8; 32], Arc<Picture>>,
     pub(crate) viewers: Arc<Semaphore>,
     pub(crate) previews: Arc<Semaphore>,
     pub(crate) refinements: Arc<Semaphore>,
+    pub(crate) uploads: Arc<Semaphore>,
     memory: Arc<Semaphore>,
     encoders: Arc<Semaphore>,
     stopping: watch::Sender<bool>,
@@ -65,6 +70,8 @@ impl Service {
             viewers: semaphore(settings.max_viewers.into()),
             previews: semaphore(LIVE_PREVIEWS as u64),
             refinements: semaphore(LIVE_REFINEMENTS as u64),
+            uploads: semaphore(UPLOADS),
+            assets: Shelf::default(),
             memory: semaphore(settings.frame_memory_bytes / BYTES_PER_PERMIT),
             encoders: semaphore(settings.encoders.max(1).into()),
             stopping: watch::Sender::new(false),

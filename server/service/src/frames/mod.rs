@@ -78,7 +78,9 @@ async fn frame(service: &Service, request: FrameRequest, headers: &HeaderMap) ->
         Some(format) => format,
         None => accepted(headers)?,
     };
-    let asked = Asked::new(service, request, format)?;
+    let assets = service.assets_of(&request.scene).await;
+    let assets = assets.map_err(|e| e.within("/scene"))?;
+    let asked = Asked::new(service, request, assets, format)?;
     let quality = asked.request.quality;
     if headers::has_copy(headers, &asked.etag()) {
         metrics::frame_answered(format, quality, Source::Client);

@@ -8,10 +8,11 @@ use crate::{
 use bytes::Bytes;
 use serde::Serialize;
 use sha2::{Digest, Sha256};
-use std::{sync::Arc, time::Duration};
+use std::{collections::BTreeMap, sync::Arc, time::Duration};
 use tokio::sync::OwnedSemaphorePermit;
 use welkin_encode::{Options, encode, output_for};
 use welkin_scene::{
+    SceneAssets,
     frame::{Format, FrameRequest},
     renderer::{FrameFacts, FrameOrder, PassTime, Priority},
 };
@@ -19,9 +20,10 @@ use welkin_scene::{
 /// A file larger than this share of the cache would push out all the others, and is not kept.
 const LARGEST_SHARE: u64 = 8;
 
-/// A request whose format is settled, and its fingerprint.
+/// A request whose format is settled, with the assets that it names, and its fingerprint.
 pub(crate) struct Asked {
     pub(crate) request: FrameRequest,
+    assets: Arc<SceneAssets>,
     pub(crate) format: Format,
     pub(crate) key: [u8; 32],
 }
@@ -50,7 +52,12 @@ impl AsRef<[u8]> for Budgeted {
 
 impl Asked {
     /// Settles the format and checks the size against what `service` renders.
-    pub(crate) fn new(service: &Service, request: FrameRequest, format: Format) -> Result<Self, Error> {
+    pub(crate) fn new(
+        service: &Service,
+        request: FrameRequest,
+        assets: Arc<SceneAssets>,
+        format: Format,
+    ) -> Result<Self, Error> {
         let request = FrameRequest {
             format: Some(format),
             ..request
@@ -59,12 +66,16 @@ impl Asked {
         #[derive(Serialize)]
         struct Canonical<'a> {
             request: &'a FrameRequest,
+            weather_maps: BTreeMap<&'a str, String>,
             build: &'a str,
             device: [&'a str; 3],
         }
         let device = service.renderer.device();
         let canonical = Canonical {
             request: &request,
+            weather_maps: (assets.weather_maps.iter())
+                .map(|(name, picture)| (name.as_str(), picture.digest_hex()))
+                .collect(),
             build: &service.settings.build,
             device: [&device.adapter, &device.backend, &device.driver],
         };
@@ -72,11 +83,12 @@ impl Asked {
         Ok(Self {
             key: Sha256::digest(json).into(),
             request,
+            assets,
             format,
         })
     }
 
-    /// The entity tag, quotes included: same request, build and device, same bytes.
+    /// The entity tag, quotes included: same request, assets, build and device, same bytes.
     pub(crate) fn etag(&self) -> String {
         let hex: String = self.key[..16].iter().map(|byte| format!("{byte:02x}")).collect();
         format!("\"{hex}\"")
@@ -108,10 +120,15 @@ impl Service {
     }
 
     async fn make(&self, asked: &Asked) -> Result<Picture, Error> {
-        let Asked { request, format, .. } = asked;
+        let Asked {
+            request,
+            assets,
+            format,
+            ..
+        } = asked;
         let order = FrameOrder {
             scene: Arc::new(request.scene.clone()),
-            assets: Arc::default(),
+            assets: Arc::clone(assets),
             width_px: request.width_px,
             height_px: request.height_px,
             quality: request.quality,

@@ -41,7 +41,7 @@ pub(crate) fn read(text: &str) -> Result<Message, (Option<u32>, Error)> {
         return Err((
             None,
             Error::BodyTooLarge {
-                limit_bytes: MAX_BODY_BYTES,
+                limit_bytes: MAX_BODY_BYTES as u64,
             },
         ));
     }

@@ -12,7 +12,10 @@ use bytes::Bytes;
 use futures_util::{FutureExt, StreamExt, future::OptionFuture};
 use serde_json::json;
 use std::{future::Future, pin::Pin, time::Duration};
-use tokio::time::{Instant, MissedTickBehavior, interval_at, sleep_until, timeout};
+use tokio::{
+    sync::watch,
+    time::{Instant, MissedTickBehavior, interval_at, sleep_until, timeout},
+};
 
 /// How often an idle connection is shown to be alive.
 const KEEPALIVE: Duration = Duration::from_secs(20);
@@ -37,6 +40,8 @@ struct Session {
     service: Service,
     socket: WebSocket,
     view: View,
+    /// Told when an asset changes.
+    changes: watch::Receiver<()>,
     pace: Pace,
     /// What comes next for the view as it is; nothing when all is shown.
     next: Option<Stage>,
@@ -55,6 +60,7 @@ struct Session {
 pub(crate) async fn run(socket: WebSocket, service: Service) {
     let mut stopping = service.stopping();
     let mut session = Session {
+        changes: service.assets.changes(),
         service,
         socket,
         view: View::default(),
@@ -100,6 +106,7 @@ impl Session {
                 message = self.socket.next() => self.take_in(message).await?,
                 Some(done) = work => self.finish(done).await?,
                 Some(()) = due(self.pong_due) => return Err(End(close_code::POLICY, "the last picture was not confirmed")),
+                Ok(()) = self.changes.changed() => self.look_again().await?,
                 Some(()) = due(self.wait_until) => self.wait_until = None,
                 _ = keepalive.tick() => self.keep_alive().await?,
             }
@@ -134,7 +141,11 @@ impl Session {
             Message::Text(text) => match message::read(&text) {
                 Ok(message) => {
                     let seq = message.seq;
-                    match self.view.after(message) {
+                    let view = match self.view.after(message) {
+                        Ok(view) => view.with_assets(&self.service).await,
+                        Err(error) => Err(error),
+                    };
+                    match view {
                         Ok(view) => self.look_at(view),
                         Err(error) => self.refuse(Some(seq), &error).await?,
                     }
@@ -154,6 +165,19 @@ impl Session {
             Message::Ping(_) | Message::Pong(_) | Message::Close(_) => {}
         }
         Ok(())
+    }
+
+    /// Some asset has changed: one of this view, perhaps.
+    async fn look_again(&mut self) -> Result<(), End> {
+        let view = self.view.clone().with_assets(&self.service).await;
+        match view {
+            Ok(view) if view.assets == self.view.assets => Ok(()),
+            Ok(view) => {
+                self.look_at(view);
+                Ok(())
+            }
+            Err(error) => self.refuse(Some(self.view.seq), &error).await,
+        }
     }
 
     /// A preview in work is let finish, so that a view that never rests is still shown; a refinement is dropped.

@@ -80,10 +80,12 @@ pub(crate) async fn take(service: Service, view: View, stage: Stage) -> Result<S
         .acquire_owned()
         .await
         .map_err(|_| Error::Stopped)?;
+    let assets = service.assets_of(&view.scene).await;
+    let assets = assets.map_err(|e| e.within("/scene"))?;
     let (width_px, height_px) = divided(output.width_px, output.height_px, divisor);
     let order = FrameOrder {
         scene: Arc::clone(&view.scene),
-        assets: Arc::default(),
+        assets,
         width_px: width_px.into(),
         height_px: height_px.into(),
         quality,

@@ -1,11 +1,11 @@
 //! What one viewer looks at.
 
 use super::message::{Message, OutputChange};
-use crate::error::Error;
+use crate::{error::Error, state::Service};
 use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
 use std::sync::Arc;
-use welkin_scene::{Scene, frame::Quality};
+use welkin_scene::{Scene, SceneAssets, frame::Quality};
 
 /// Kind of picture that a viewer gets.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -41,6 +41,8 @@ impl Default for LiveOutput {
 pub(crate) struct View {
     pub(crate) seq: u32,
     pub(crate) scene: Arc<Scene>,
+    /// The assets of the scene as they were last seen, without their pixels: a viewer who looks on holds none.
+    pub(crate) assets: Arc<SceneAssets>,
     pub(crate) output: LiveOutput,
     /// As the client sent it, which is what its patches change.
     document: Value,
@@ -51,6 +53,7 @@ impl Default for View {
         Self {
             seq: 0,
             scene: Arc::default(),
+            assets: Arc::default(),
             output: LiveOutput::default(),
             document: json!({}),
         }
@@ -93,5 +96,12 @@ impl View {
             };
         }
         Ok(next)
+    }
+    /// The view with the assets of its scene as they are now.
+    pub(crate) async fn with_assets(self, service: &Service) -> Result<Self, Error> {
+        let assets = service.assets_of(&self.scene).await;
+        let assets = assets.map_err(|e| e.within("/scene"))?;
+        let assets = Arc::new(assets.without_pixels());
+        Ok(Self { assets, ..self })
     }
 }

@@ -96,9 +96,12 @@ pub(crate) struct Server {
 }
 
 pub(crate) async fn server(fake: &Arc<Fake>, settings: Settings) -> Server {
+    server_of(Service::new(Arc::clone(fake) as _, settings)).await
+}
+
+pub(crate) async fn server_of(service: Service) -> Server {
     let listener = listen("127.0.0.1:0").await.unwrap();
     let address = listener.local_addr().unwrap();
-    let service = Service::new(Arc::clone(fake) as _, settings);
     let (stop, stopped) = oneshot::channel();
     let stopped = async {
         // A dropped sender is a test that ended.

@@ -19,6 +19,7 @@ use welkin_scene::{
 
 pub(crate) struct Fake {
     pub(crate) orders: Mutex<Vec<FrameOrder>>,
+    pub(crate) probes: Mutex<Vec<ProbeOrder>>,
     pub(crate) cancelled: Arc<AtomicUsize>,
     delay: Box<dyn Fn(&FrameOrder) -> Duration + Send + Sync>,
     /// Errors given instead of frames, the first first.
@@ -33,6 +34,7 @@ impl Fake {
     pub(crate) fn slow(delay: impl Fn(&FrameOrder) -> Duration + Send + Sync + 'static) -> Arc<Self> {
         Arc::new(Self {
             orders: Mutex::default(),
+            probes: Mutex::default(),
             cancelled: Arc::default(),
             delay: Box::new(delay),
             failures: Mutex::default(),
@@ -101,7 +103,9 @@ impl Render for Fake {
         })
     }
 
-    fn probe(&self, ProbeOrder { request, .. }: ProbeOrder) -> Reply<ProbeAnswer> {
+    fn probe(&self, order: ProbeOrder) -> Reply<ProbeAnswer> {
+        self.probes.lock().unwrap().push(order.clone());
+        let ProbeOrder { request, .. } = order;
         let failure = self.failure();
         Box::pin(async move {
             let count = request.directions.len();

@@ -7,6 +7,9 @@
     reason = "tests fail by panicking; their numbers are small"
 )]
 
+mod asset_files;
+mod asset_requests;
+mod asset_scenes;
 mod client;
 mod discovery;
 mod fake;

@@ -1,6 +1,7 @@
 //! The OpenAPI document describes what is there.
 
 use crate::{
+    asset_files::{Shelf, weather_map},
     client::{call, get, router},
     fake::Fake,
 };
@@ -8,7 +9,7 @@ use axum::{body::Body, http::Request};
 use serde_json::Value;
 
 /// The routes of the contract. `/docs` is a page about the others.
-const ROUTES: [(&str, &[&str]); 15] = [
+const ROUTES: [(&str, &[&str]); 18] = [
     ("/", &["get"]),
     ("/v1/frames", &["get", "post"]),
     ("/v1/live", &["get"]),
@@ -20,6 +21,9 @@ const ROUTES: [(&str, &[&str]); 15] = [
     ("/v1/schema/frame", &["get"]),
     ("/v1/schema/probe", &["get"]),
     ("/v1/device", &["get"]),
+    ("/v1/assets", &["get"]),
+    ("/v1/assets/{kind}", &["get"]),
+    ("/v1/assets/{kind}/{name}", &["delete", "get", "put"]),
     ("/openapi.json", &["get"]),
     ("/healthz", &["get"]),
     ("/readyz", &["get"]),
@@ -36,7 +40,8 @@ async fn every_route_is_described_and_every_description_is_a_route() {
     assert_eq!(document["openapi"], "3.1.0");
     let paths = document["paths"].as_object().unwrap();
     assert_eq!(paths.len(), ROUTES.len(), "{:?}", paths.keys());
-    let app = router(&Fake::new());
+    let shelf = Shelf::new();
+    let app = shelf.router(&Fake::new());
     for (path, methods) in ROUTES {
         let described: Vec<_> = paths[path].as_object().unwrap().keys().collect();
         assert_eq!(described, methods, "{path}");
@@ -46,7 +51,9 @@ async fn every_route_is_described_and_every_description_is_a_route() {
                 operation["summary"].is_string() && operation["responses"].is_object(),
                 "{method} {path}"
             );
+            let path = path.replace("{kind}", "weather-maps");
             let path = path.replace("{name}", "twilight");
+            shelf.put("twilight", &weather_map(1));
             let request = Request::builder()
                 .method(method.to_uppercase().as_str())
                 .uri(&path);
@@ -99,7 +106,9 @@ async fn the_types_of_problems_lead_to_their_description() {
 #[tokio::test]
 async fn hand_written_schemas_have_the_members_that_are_sent() {
     let document = document().await;
-    let app = router(&Fake::new());
+    let shelf = Shelf::new();
+    shelf.put("map", &weather_map(1));
+    let app = shelf.router(&Fake::new());
     let names = |value: &Value| {
         value
             .as_object()
@@ -110,6 +119,13 @@ async fn hand_written_schemas_have_the_members_that_are_sent() {
     };
     let described = |schema: &str| names(&document["components"]["schemas"][schema]["properties"]);
     assert_eq!(names(&get(&app, "/v1/device").await.json()), described("Device"));
+    let listing = get(&app, "/v1/assets").await.json();
+    assert_eq!(names(&listing), described("Assets"));
+    assert_eq!(names(&listing["assets"][0]), described("Asset"));
+    for part in ["used", "limits"] {
+        let described = &document["components"]["schemas"]["Assets"]["properties"][part]["properties"];
+        assert_eq!(names(&listing[part]), names(described));
+    }
     assert_eq!(
         names(&get(&app, "/v1/presets").await.json()[0]),
         described("Preset")
