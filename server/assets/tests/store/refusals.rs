@@ -95,7 +95,6 @@ fn a_first_frame_that_leaves_pixels_unset_is_refused() {
     let rest = [&animation, &chunk(b"fcTL", &control), data].concat();
     let error = put(&store, "map", &headed(4, 4, 8, 6, &rest)).unwrap_err();
     assert!(matches!(error, Error::Damaged { .. }), "{error}");
-
 }
 
 #[test]
