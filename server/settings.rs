@@ -8,6 +8,7 @@ use figment::{
 };
 use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
+use welkin_assets::Limits;
 
 /// Looked for in the working directory when no other file is named.
 const DEFAULT_FILE: &str = "welkin.toml";
@@ -20,6 +21,10 @@ pub(crate) struct Settings {
     pub(crate) require_gpu: bool,
     pub(crate) cache_dir: Option<PathBuf>,
     pub(crate) disk_cache_bytes: u64,
+    pub(crate) assets: Option<PathBuf>,
+    pub(crate) max_asset_bytes: u64,
+    pub(crate) max_assets: u32,
+    pub(crate) assets_bytes: u64,
     pub(crate) queue_places: usize,
     pub(crate) listen: String,
     pub(crate) cache_bytes: u64,
@@ -31,11 +36,15 @@ pub(crate) struct Settings {
 }
 
 /// Names of the settings, as the environment has them after `WELKIN_` (in capitals).
-const NAMES: [&str; 12] = [
+const NAMES: [&str; 16] = [
     "adapter",
     "require_gpu",
     "cache_dir",
     "disk_cache_bytes",
+    "assets",
+    "max_asset_bytes",
+    "max_assets",
+    "assets_bytes",
     "queue_places",
     "listen",
     "cache_bytes",
@@ -60,11 +69,16 @@ pub(crate) enum LogFormat {
 impl Default for Settings {
     fn default() -> Self {
         let service = welkin_service::Settings::default();
+        let assets = Limits::default();
         Self {
             adapter: None,
             require_gpu: false,
             cache_dir: None,
             disk_cache_bytes: 268_435_456,
+            assets: None,
+            max_asset_bytes: assets.max_asset_bytes,
+            max_assets: assets.max_assets,
+            assets_bytes: assets.assets_bytes,
             queue_places: 64,
             listen: "127.0.0.1:8080".into(),
             cache_bytes: service.cache_bytes,
@@ -96,6 +110,11 @@ pub(crate) struct DeviceFlags {
     #[arg(long, value_name = "BYTES")]
     #[serde(skip_serializing_if = "Option::is_none")]
     disk_cache_bytes: Option<u64>,
+    /// Where the files are that scenes name, such as weather maps
+    /// [default: welkin/assets in the user's folder for data]
+    #[arg(long, value_name = "FOLDER")]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    assets: Option<PathBuf>,
 }
 
 /// Flags of `welkin serve`.
@@ -108,6 +127,18 @@ pub(crate) struct ServeFlags {
     #[arg(long, value_name = "ADDRESS:PORT")]
     #[serde(skip_serializing_if = "Option::is_none")]
     listen: Option<String>,
+    /// The largest asset, bytes [default: 67108864]
+    #[arg(long, value_name = "BYTES")]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    max_asset_bytes: Option<u64>,
+    /// Most assets; 0 keeps none, and scenes can name none [default: 1000]
+    #[arg(long, value_name = "COUNT")]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    max_assets: Option<u32>,
+    /// All assets together, bytes [default: 1073741824]
+    #[arg(long, value_name = "BYTES")]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    assets_bytes: Option<u64>,
     /// Orders that wait or are rendered at once; more are answered 503 [default: 64]
     #[arg(long, value_name = "COUNT")]
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -164,6 +195,36 @@ impl Settings {
         let users_own = || Some(etcetera::choose_base_strategy().ok()?.cache_dir().join("welkin"));
         let named = self.cache_dir.clone().filter(|dir| !dir.as_os_str().is_empty());
         named.or_else(users_own)
+    }
+
+    /// The folder for assets that was asked for by name.
+    pub(crate) fn named_assets_folder(&self) -> Option<&Path> {
+        self.assets.as_deref().filter(|dir| !dir.as_os_str().is_empty())
+    }
+
+    /// Where assets are kept; none where none shall be, or the user has no such folder.
+    pub(crate) fn assets_folder(&self) -> Option<PathBuf> {
+        if self.max_assets == 0 {
+            return None;
+        }
+        let users_own = || {
+            Some(
+                etcetera::choose_base_strategy()
+                    .ok()?
+                    .data_dir()
+                    .join("welkin/assets"),
+            )
+        };
+        self.named_assets_folder().map(Path::to_owned).or_else(users_own)
+    }
+
+    /// How much the store of assets takes.
+    pub(crate) const fn asset_limits(&self) -> Limits {
+        Limits {
+            max_asset_bytes: self.max_asset_bytes,
+            max_assets: self.max_assets,
+            assets_bytes: self.assets_bytes,
+        }
     }
 
     /// The part that the service knows.
@@ -243,6 +304,22 @@ mod tests {
             assert_eq!(load(&flags)?.cache_folder(), Some("here".into()));
             flags.device.disk_cache_bytes = Some(0);
             assert_eq!(load(&flags)?.cache_folder(), None);
+            jail.set_env("XDG_DATA_HOME", "/data");
+            let users_own = load(&ServeFlags::default())?.assets_folder();
+            if cfg!(target_os = "linux") {
+                assert_eq!(users_own, Some("/data/welkin/assets".into()));
+            }
+            jail.set_env("WELKIN_ASSETS", "");
+            assert_eq!(load(&ServeFlags::default())?.assets_folder(), users_own);
+            jail.set_env("WELKIN_ASSETS", "/maps");
+            assert_eq!(
+                load(&ServeFlags::default())?.assets_folder(),
+                Some("/maps".into())
+            );
+            flags.device.assets = Some("here".into());
+            assert_eq!(load(&flags)?.assets_folder(), Some("here".into()));
+            jail.set_env("WELKIN_MAX_ASSETS", "0");
+            assert_eq!(load(&flags)?.assets_folder(), None);
             Ok(())
         });
     }
@@ -275,6 +352,9 @@ mod tests {
             let value = match &defaults[name] {
                 serde_json::Value::Null if name == "cache_dir" => {
                     "welkin in the user's folder for caches".to_owned()
+                }
+                serde_json::Value::Null if name == "assets" => {
+                    "welkin/assets in the user's folder for data".to_owned()
                 }
                 serde_json::Value::Null => "the fastest".to_owned(),
                 serde_json::Value::String(text) => text.clone(),

@@ -18,6 +18,11 @@ struct Server {
     address: String,
 }
 
+/// A folder that is nobody's.
+fn assets() -> PathBuf {
+    Path::new(env!("CARGO_TARGET_TMPDIR")).join("docs-assets")
+}
+
 impl Server {
     fn start() -> Self {
         let address = TcpListener::bind("127.0.0.1:0")
@@ -27,6 +32,7 @@ impl Server {
             .to_string();
         let process = Command::new(WELKIN)
             .args(["serve", "--listen", &address])
+            .env("WELKIN_ASSETS", assets())
             .spawn()
             .unwrap();
         let mut server = Self { process, address };
@@ -105,6 +111,7 @@ fn every_command_in_the_documentation_runs() {
                 .current_dir(&folder)
                 .env("PATH", &path)
                 .env("CURL_HOME", &folder)
+                .env("WELKIN_ASSETS", assets())
                 .stdin(Stdio::null())
                 .output()
                 .unwrap();

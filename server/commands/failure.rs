@@ -35,6 +35,9 @@ pub(crate) enum Failure {
         /// What the system said.
         source: io::Error,
     },
+    /// The folder of assets could not be opened or read.
+    #[error(transparent)]
+    Assets(welkin_assets::Error),
     /// The service could not be started.
     #[error(transparent)]
     Start(#[from] StartError),
@@ -64,7 +67,12 @@ impl Failure {
             Self::Usage(_) | Self::Settings(_) | Self::Scene(_) => 2,
             Self::Render(RenderError::Size { .. }) | Self::Encode(EncodeError::Extension { .. }) => 2,
             Self::Device(_) => Self::NO_DEVICE,
-            Self::Render(_) | Self::Encode(_) | Self::File { .. } | Self::Start(_) | Self::Bench(_) => 1,
+            Self::Render(_)
+            | Self::Encode(_)
+            | Self::File { .. }
+            | Self::Assets(_)
+            | Self::Start(_)
+            | Self::Bench(_) => 1,
             // What shells give for an interrupt.
             Self::Interrupted => 130,
         }
@@ -90,7 +98,7 @@ impl Failure {
             Self::Device(_) => "No device",
             Self::Render(_) => "Not rendered",
             Self::Encode(_) => "Not encoded",
-            Self::File { .. } => "Not read or written",
+            Self::File { .. } | Self::Assets(_) => "Not read or written",
             Self::Start(_) => "Not started",
             Self::Bench(_) => "Not measured, or not as promised",
             Self::Interrupted => "Interrupted",

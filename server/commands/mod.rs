@@ -1,5 +1,6 @@
 //! The command line.
 
+mod assets;
 mod bench;
 mod devices;
 mod document;

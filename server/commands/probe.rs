@@ -1,10 +1,10 @@
 //! `welkin probe`
 
-use super::{Failure, document, document::STANDARD, logging, waiting::wait_for};
+use super::{Failure, assets, document, document::STANDARD, logging, waiting::wait_for};
 use crate::settings::{DeviceFlags, Settings};
 use serde_json::{Value, json};
 use std::path::Path;
-use welkin_scene::ProbeRequest;
+use welkin_scene::{ProbeRequest, renderer::ProbeOrder};
 
 /// Arguments of `welkin probe`.
 #[derive(clap::Args)]
@@ -26,9 +26,10 @@ pub(crate) fn run(args: &Args, config: Option<&Path>) -> Result<(), Failure> {
     let settings = Settings::load(config, &args.device)?;
     logging::quiet();
     let request = request(args)?;
+    let assets = assets::of_scene(&settings, &request.scene)?;
     let renderer = crate::open_renderer(&settings)?;
     let doing = format!("probing {} directions", request.directions.len());
-    let answer = wait_for(&doing, renderer.probe(request.into()))?;
+    let answer = wait_for(&doing, renderer.probe(ProbeOrder { request, assets }))?;
     document::print(&json!(answer), false)
 }
 

@@ -1,9 +1,9 @@
 //! `welkin render`
 
-use super::{Failure, document, document::STANDARD, logging, output::Output, waiting::wait_for};
+use super::{Failure, assets, document, document::STANDARD, logging, output::Output, waiting::wait_for};
 use crate::settings::{DeviceFlags, Settings};
 use serde_json::{Value, json};
-use std::{path::Path, sync::Arc};
+use std::path::Path;
 use welkin_encode::{Options, encode, format_from_path, output_for};
 use welkin_scene::{
     Format, FrameRequest,
@@ -42,11 +42,12 @@ pub(crate) fn run(args: &Args, config: Option<&Path>) -> Result<(), Failure> {
     let settings = Settings::load(config, &args.device)?;
     logging::quiet();
     let (request, format) = request(args)?;
+    let assets = assets::of_scene(&settings, &request.scene)?;
     let output = Output::open(&args.output)?;
     let renderer = crate::open_renderer(&settings)?;
     let order = FrameOrder {
         scene: request.scene.clone().into(),
-        assets: Arc::default(),
+        assets,
         width_px: request.width_px,
         height_px: request.height_px,
         quality: request.quality,

@@ -1,6 +1,6 @@
 //! `welkin serve`
 
-use super::{Failure, logging, version::build};
+use super::{Failure, assets, logging, version::build};
 use crate::settings::{ServeFlags, Settings};
 use std::{io, path::Path};
 use welkin_service::{Service, listen, serve};
@@ -27,12 +27,17 @@ pub(crate) fn run(args: &Args, config: Option<&Path>) -> Result<(), Failure> {
 }
 
 async fn until_stopped(settings: &Settings) -> Result<(), Failure> {
+    let store = tokio::task::block_in_place(|| assets::store(settings))?;
     let listener = listen(&settings.listen).await?;
     let address = listener.local_addr().map_err(Failure::file("listening"))?;
     let renderer = tokio::task::block_in_place(|| crate::open_renderer(settings))?;
     let (build, adapter) = (build(), renderer.device().adapter);
     tracing::info!(build, "Welkin is at http://{address} (adapter {adapter})");
     let service = Service::new(renderer, settings.service(build));
+    let service = match store {
+        Some(store) => service.with_assets(store),
+        None => service,
+    };
     let stop = stopped().map_err(Failure::file("waiting for signals"))?;
     Ok(serve(service, listener, stop).await?)
 }

@@ -90,7 +90,7 @@ pub(crate) struct Fault {
     /// The field in the body, as a JSON pointer (RFC 6901).
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) pointer: Option<String>,
-    /// The parameter in the query.
+    /// The parameter in the query, or in the path.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) parameter: Option<String>,
     /// What it holds.
@@ -113,7 +113,7 @@ impl Fault {
         }
     }
 
-    /// A fault of a parameter in the query.
+    /// A fault of a parameter in the query, or in the path.
     pub(crate) fn query(parameter: &str, value: impl Into<Value>, allowed: String, message: String) -> Self {
         Self {
             pointer: None,

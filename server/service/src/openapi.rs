@@ -188,7 +188,7 @@ fn problem_responses() -> Value {
 fn problem_schema() -> Value {
     let fault = json!({
         "pointer": {"type": "string", "description": "The field in the body, a JSON pointer (RFC 6901)"},
-        "parameter": {"type": "string", "description": "The parameter in the query"},
+        "parameter": {"type": "string", "description": "The parameter in the query, or in the path"},
         "value": {"description": "What it holds; null where it is missing"},
         "allowed": {"type": "string", "description": "What it may hold"},
     });
