@@ -159,6 +159,27 @@ mod tests {
     }
 
     #[test]
+    fn without_pixels_content_is_still_told_apart() {
+        let assets = |digest| SceneAssets {
+            weather_maps: [(
+                "front".to_owned(),
+                Arc::new(WeatherPicture {
+                    width_px: 1,
+                    height_px: 1,
+                    rgba: vec![0; 4].into(),
+                    digest: [digest; 32],
+                }),
+            )]
+            .into(),
+        };
+        let bare = assets(1).without_pixels();
+        assert!(bare.weather_maps["front"].rgba.is_empty());
+        assert_eq!(bare, assets(1));
+        assert_ne!(bare, assets(2));
+        assert_ne!(bare, SceneAssets::default());
+    }
+
+    #[test]
     fn references_are_found_wherever_a_map_may_stand() {
         let found = |map: serde_json::Value| {
             let scene = Scene::from_value(&json!({"clouds": {"weather_map": map}})).unwrap();
