@@ -6,7 +6,7 @@ use std::{
     fs,
     io::{self, Read, Write},
 };
-use welkin_scene::{Scene, preset};
+use welkin_scene::{Scene, Timeline, preset};
 
 /// Stands for standard input or output.
 pub(crate) const STANDARD: &str = "-";
@@ -20,6 +20,14 @@ pub(crate) fn scene(name: &str) -> Result<Scene, Failure> {
         Some(name) => Ok(named_preset(name)?.scene.clone()),
         None => Ok(Scene::from_json(&text(name)?)?),
     }
+}
+
+/// A timeline from a file or from standard input (`-`).
+///
+/// # Errors
+/// Where it cannot be read or is not a timeline.
+pub(crate) fn timeline(name: &str) -> Result<Timeline, Failure> {
+    Ok(Timeline::from_json(&text(name)?)?)
 }
 
 /// A preset by its name.

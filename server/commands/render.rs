@@ -13,8 +13,11 @@ use welkin_scene::{
 /// Arguments of `welkin render`.
 #[derive(clap::Args)]
 pub(crate) struct Args {
-    /// Scene document: a file, - for standard input, or preset:NAME
+    /// Scene document: a file, - for standard input, or preset:NAME; with --at-s, a timeline
     scene: String,
+    /// Time in a timeline, seconds
+    #[arg(long, value_name = "SECONDS", allow_negative_numbers = true)]
+    at_s: Option<f64>,
     /// File to write, - for standard output; its name tells the format
     #[arg(short, long, value_name = "FILE")]
     output: String,
@@ -85,9 +88,14 @@ fn request(args: &Args) -> Result<(FrameRequest, Format), Failure> {
         }
         None => format_from_path(Path::new(&args.output))?,
     };
-    let scene = document::scene(&args.scene)?;
     // Once more as a whole, for what only scene and size together can get wrong.
-    let whole = FrameRequest { scene, ..request };
-    let checked = FrameRequest::from_value(&json!(whole))?;
+    match args.at_s {
+        Some(at_s) => {
+            rest["timeline"] = json!(document::timeline(&args.scene)?);
+            rest["at_s"] = at_s.into();
+        }
+        None => rest["scene"] = json!(document::scene(&args.scene)?),
+    }
+    let checked = FrameRequest::from_value(&rest)?;
     Ok((checked, format))
 }

@@ -21,6 +21,8 @@ enum Document {
     Frame,
     /// A request for a probe
     Probe,
+    /// A timeline
+    Timeline,
 }
 
 /// Prints a schema.
@@ -32,6 +34,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
         Document::Scene => schema::scene_schema(),
         Document::Frame => schema::frame_request_schema(),
         Document::Probe => schema::probe_request_schema(),
+        Document::Timeline => schema::timeline_schema(),
     };
     document::print(&schema, true)
 }

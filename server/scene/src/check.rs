@@ -5,7 +5,7 @@ use crate::{
     clouds,
     direction::Direction,
     document::Scene,
-    frame::FrameRequest,
+    frame::FrameDocument,
     observer::Observer,
     probe::ProbeRequest,
     problem::{Problem, Problems, number},
@@ -13,7 +13,7 @@ use crate::{
     sun::SunPosition,
 };
 use chrono::SecondsFormat;
-use serde_json::json;
+use serde_json::{Value, json};
 
 /// Highest camera, metres over the ground: a quarter of the way to the moon.
 const MAX_ALTITUDE_M: f64 = 1e8;
@@ -56,13 +56,41 @@ impl Check for Scene {
     }
 }
 
-impl Check for FrameRequest {
+impl Check for FrameDocument {
     fn check(&self, at: &str, problems: &mut Problems) {
-        self.scene.check(&format!("{at}/scene"), problems);
+        let mut leave_out = |field: &str, value: Value, reason: &str| {
+            problems.push(Problem::new(
+                format!("{at}/{field}"),
+                &value,
+                format!("left out where {reason}"),
+            ));
+        };
+        match (&self.timeline, &self.scene, self.at_s) {
+            (Some(_), Some(scene), _) => leave_out("scene", json!(scene), "`timeline` is given"),
+            (None, _, Some(at_s)) => leave_out("at_s", json!(at_s), "there is no `timeline`"),
+            (Some(timeline), None, _) => timeline.check(&format!("{at}/timeline"), problems),
+            (None, scene, None) => {
+                if let Some(scene) = scene {
+                    scene.check(&format!("{at}/scene"), problems);
+                }
+            }
+        }
+        if !problems.is_empty() {
+            return;
+        }
+        let scene = match self.seen() {
+            Ok(scene) => scene,
+            Err(error) => {
+                let allowed = "a time at which the timeline is a scene".into();
+                let mut problem = Problem::new(format!("{at}/at_s"), &json!(self.at_s), allowed);
+                problem.message.push_str(&format!("; there, {error}"));
+                return problems.push(problem);
+            }
+        };
         let Self {
             width_px, height_px, ..
         } = *self;
-        if matches!(self.scene.camera.projection, Projection::Cubemap {}) && width_px != 6 * height_px {
+        if matches!(scene.camera.projection, Projection::Cubemap {}) && width_px != 6 * height_px {
             let allowed = format!("6 times `height_px` ({height_px}), for six square faces");
             problems.push(Problem::new(format!("{at}/width_px"), &json!(width_px), allowed));
         }

@@ -1,6 +1,6 @@
 //! A request for one frame.
 
-use crate::document::Scene;
+use crate::{document::Scene, problem::SceneError, timeline::Timeline};
 use schemars::JsonSchema;
 use serde::{Deserialize, Deserializer, Serialize, de::Error};
 
@@ -8,18 +8,13 @@ use serde::{Deserialize, Deserializer, Serialize, de::Error};
 pub const MAX_SIDE_PX: u32 = 16_384;
 
 /// One frame of a scene.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields, default)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct FrameRequest {
     /// What is seen.
     pub scene: Scene,
     /// Width, pixels.
-    #[serde(deserialize_with = "whole")]
-    #[schemars(range(min = 1, max = 16_384))]
     pub width_px: u32,
     /// Height, pixels.
-    #[serde(deserialize_with = "whole")]
-    #[schemars(range(min = 1, max = 16_384))]
     pub height_px: u32,
     /// Kind of file. Without it, the `Accept` header or the file's name decides, else PNG.
     pub format: Option<Format>,
@@ -35,6 +30,64 @@ impl Default for FrameRequest {
             height_px: 720,
             format: None,
             quality: Quality::Final,
+        }
+    }
+}
+
+/// One frame of a scene, or of a timeline at a time: [`FrameRequest`] as it is written.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+#[schemars(rename = "FrameRequest")]
+pub(crate) struct FrameDocument {
+    /// What is seen. It is left out where there is a timeline.
+    #[schemars(with = "Scene", default = "Scene::default")]
+    pub(crate) scene: Option<Scene>,
+    /// What is seen, in place of `scene`.
+    pub(crate) timeline: Option<Timeline>,
+    /// Which moment of the timeline, seconds; null for 0.
+    #[schemars(range(min = -1e9, max = 1e9))]
+    pub(crate) at_s: Option<f64>,
+    /// Width, pixels.
+    #[serde(deserialize_with = "whole")]
+    #[schemars(range(min = 1, max = 16_384))]
+    pub(crate) width_px: u32,
+    /// Height, pixels.
+    #[serde(deserialize_with = "whole")]
+    #[schemars(range(min = 1, max = 16_384))]
+    pub(crate) height_px: u32,
+    /// Kind of file. Without it, the `Accept` header or the file's name decides, else PNG.
+    pub(crate) format: Option<Format>,
+    /// How much work goes into it.
+    pub(crate) quality: Quality,
+}
+
+impl Default for FrameDocument {
+    fn default() -> Self {
+        let FrameRequest {
+            scene: _,
+            width_px,
+            height_px,
+            format,
+            quality,
+        } = FrameRequest::default();
+        Self {
+            scene: None,
+            timeline: None,
+            at_s: None,
+            width_px,
+            height_px,
+            format,
+            quality,
+        }
+    }
+}
+
+impl FrameDocument {
+    /// The scene, or the timeline's at its time.
+    pub(crate) fn seen(&self) -> Result<Scene, SceneError> {
+        match &self.timeline {
+            Some(timeline) => timeline.at(self.at_s.unwrap_or_default()),
+            None => Ok(self.scene.clone().unwrap_or_default()),
         }
     }
 }

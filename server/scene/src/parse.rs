@@ -4,7 +4,7 @@ use crate::{
     check::Check,
     document::Scene,
     explain::explain,
-    frame::FrameRequest,
+    frame::{FrameDocument, FrameRequest},
     metar::MetarRequest,
     probe::ProbeRequest,
     problem::{Problem, Problems, SceneError, echo, member},
@@ -67,7 +67,33 @@ macro_rules! readable {
     )* };
 }
 
-readable!(Scene by SCENE, FrameRequest by FRAME, ProbeRequest by PROBE, MetarRequest by METAR, Timeline by TIMELINE);
+impl FrameRequest {
+    /// Reads and checks JSON text, as [`Self::from_value`] does.
+    ///
+    /// # Errors
+    /// [`SceneError::Malformed`] where the text is not JSON; otherwise as [`Self::from_value`].
+    pub fn from_json(text: &str) -> Result<Self, SceneError> {
+        Self::from_value(&value(text)?)
+    }
+
+    /// Reads and checks a JSON value. In place of `scene` it may have a `timeline` and `at_s`; then `scene` is what is
+    /// seen at that time.
+    ///
+    /// # Errors
+    /// [`SceneError::Invalid`], as [`Scene::from_value`].
+    pub fn from_value(value: &Value) -> Result<Self, SceneError> {
+        let document: FrameDocument = read(&FRAME, value)?;
+        Ok(Self {
+            scene: document.seen()?,
+            width_px: document.width_px,
+            height_px: document.height_px,
+            format: document.format,
+            quality: document.quality,
+        })
+    }
+}
+
+readable!(Scene by SCENE, ProbeRequest by PROBE, MetarRequest by METAR, Timeline by TIMELINE);
 
 fn read<T: DeserializeOwned + Check>(rules: &Rules, value: &Value) -> Result<T, SceneError> {
     if !rules.validator.is_valid(value) {

@@ -78,6 +78,10 @@ impl Problems {
         }
     }
 
+    pub(crate) const fn is_empty(&self) -> bool {
+        self.0.is_empty()
+    }
+
     pub(crate) const fn is_full(&self) -> bool {
         self.0.len() >= MAX_PROBLEMS
     }

@@ -3,7 +3,7 @@
 
 use crate::{
     document::Scene,
-    frame::FrameRequest,
+    frame::FrameDocument,
     metar::{MetarAnswer, MetarRequest},
     probe::ProbeRequest,
     timeline::Timeline,
@@ -17,10 +17,10 @@ pub fn scene_schema() -> Value {
     derive::<Scene>()
 }
 
-/// The schema of [`FrameRequest`].
+/// The schema of [`FrameRequest`](crate::FrameRequest).
 #[must_use]
 pub fn frame_request_schema() -> Value {
-    derive::<FrameRequest>()
+    derive::<FrameDocument>()
 }
 
 /// The schema of [`Timeline`].

@@ -60,6 +60,13 @@ pub(crate) async fn frame_schema() -> Json<Value> {
     Json(schema::frame_request_schema())
 }
 
+/// JSON Schema (draft 2020-12) of a timeline.
+#[utoipa::path(get, path = "/v1/schema/timeline", tag = "discovery", responses(
+    (status = 200, description = "The schema", content_type = "application/schema+json", body = Object)))]
+pub(crate) async fn timeline_schema() -> Json<Value> {
+    Json(schema::timeline_schema())
+}
+
 /// JSON Schema (draft 2020-12) of a probe request.
 #[utoipa::path(get, path = "/v1/schema/probe", tag = "discovery", responses(
     (status = 200, description = "The schema", content_type = "application/schema+json", body = Object)))]

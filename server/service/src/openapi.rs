@@ -126,6 +126,7 @@ pub(crate) fn complete(routes: &utoipa::openapi::OpenApi, build: &str) -> Result
         ("Scene", schema::scene_schema()),
         ("FrameRequest", schema::frame_request_schema()),
         ("ProbeRequest", schema::probe_request_schema()),
+        ("Timeline", schema::timeline_schema()),
         ("MetarRequest", schema::metar_request_schema()),
         ("MetarAnswer", schema::metar_answer_schema()),
         ("ProbeAnswer", schema_for!(ProbeAnswer).to_value()),

@@ -96,6 +96,7 @@ fn documented(service: &Service) -> OpenApiRouter<Service> {
         .routes(routes!(discovery::scene_schema))
         .routes(routes!(discovery::frame_schema))
         .routes(routes!(discovery::probe_schema))
+        .routes(routes!(discovery::timeline_schema))
         .routes(routes!(discovery::device))
         .routes(routes!(openapi::openapi))
         .routes(routes!(operations::health))

@@ -2,7 +2,8 @@
 
 use serde_json::{Value, json};
 use welkin_scene::{
-    FrameRequest, ProbeRequest, Scene, frame_request_schema, presets, probe_request_schema, scene_schema,
+    FrameRequest, ProbeRequest, Scene, Timeline, frame_request_schema, presets, probe_request_schema,
+    scene_schema, timeline_schema,
 };
 
 /// Every field of every object in a schema, as (name, schema).
@@ -26,6 +27,7 @@ fn they_are_schemas_of_draft_2020_12() {
         (scene_schema(), "Scene"),
         (frame_request_schema(), "FrameRequest"),
         (probe_request_schema(), "ProbeRequest"),
+        (timeline_schema(), "Timeline"),
     ] {
         assert_eq!(schema["$schema"], "https://json-schema.org/draft/2020-12/schema");
         assert_eq!(schema["title"], title);
@@ -111,9 +113,13 @@ fn defaults_are_those_of_the_types() {
         defaults(scene_schema()),
         serde_json::to_value(Scene::default()).unwrap()
     );
+    let mut frame = serde_json::to_value(FrameRequest::default()).unwrap();
+    frame["timeline"] = Value::Null;
+    frame["at_s"] = Value::Null;
+    assert_eq!(defaults(frame_request_schema()), frame);
     assert_eq!(
-        defaults(frame_request_schema()),
-        serde_json::to_value(FrameRequest::default()).unwrap()
+        defaults(timeline_schema()),
+        serde_json::to_value(Timeline::default()).unwrap()
     );
     assert_eq!(
         defaults(probe_request_schema()),

@@ -2,7 +2,7 @@
 
 use crate::faults::problems;
 use serde_json::{Value, json};
-use welkin_scene::{Scene, Timeline, clouds::WeatherMap};
+use welkin_scene::{FrameRequest, Scene, Timeline, clouds::WeatherMap};
 
 pub(crate) fn timeline(scene: &Value, keyframes: &[(f64, Value)]) -> Timeline {
     let keyframes: Vec<_> = keyframes
@@ -285,4 +285,58 @@ fn a_time_beyond_the_suns_years_is_refused() {
     let track = timeline(&sun, &[]);
     assert_eq!(problems(track.at(9e8))[0].pointer, "/time_s");
     assert!(track.at(0.0).is_ok());
+}
+
+#[test]
+fn a_frame_is_of_a_scene_or_of_a_timeline() {
+    let radius = |radius: f64| json!({"planet": {"radius_m": radius}});
+    let keys = json!([{"at_s": 0, "patch": radius(1e6)}, {"at_s": 10, "patch": radius(2e6)}]);
+    let track = json!({ "keyframes": keys });
+    let frame = FrameRequest::from_value(&json!({"timeline": track, "at_s": 5, "width_px": 64})).unwrap();
+    let expected = Timeline::from_value(&track).unwrap().at(5.0).unwrap();
+    assert_eq!((frame.scene, frame.width_px), (expected, 64));
+    let begin = FrameRequest::from_value(&json!({"timeline": track})).unwrap();
+    assert_eq!(begin.scene.planet.radius_m, 1e6);
+    let same =
+        FrameRequest::from_value(&json!({"scene": radius(1e6), "timeline": null, "at_s": null})).unwrap();
+    assert_eq!(same.scene, begin.scene);
+    // What is written is of a scene.
+    let written = serde_json::to_value(&begin).unwrap();
+    assert_eq!(FrameRequest::from_value(&written).unwrap(), begin);
+
+    let late = json!({"scene": {"sun": {"position": {"time": "2099-01-01T00:00:00Z", "latitude_deg": 0, "longitude_deg": 0}}}});
+    let cube = json!({"scene": {"camera": {"projection": {"kind": "cubemap"}}}});
+    for (request, pointer, part) in [
+        (
+            json!({"scene": {}, "timeline": {}}),
+            "/scene",
+            "left out where `timeline` is given",
+        ),
+        (
+            json!({"at_s": 3}),
+            "/at_s",
+            "left out where there is no `timeline`, but is 3",
+        ),
+        (
+            json!({"timeline": {"keyframes": [{"at_s": 0, "patch": radius(1.0)}]}}),
+            "/timeline/keyframes/0/patch/planet/radius_m",
+            "but is 1",
+        ),
+        (
+            json!({"timeline": {"scene": radius(1.0)}}),
+            "/timeline/scene/planet/radius_m",
+            "but is 1",
+        ),
+        (json!({"timeline": late, "at_s": 9e8}), "/at_s", "2100"),
+        (json!({"timeline": cube}), "/width_px", "6 times"),
+        (
+            json!({"timeline": {}, "at_s": "noon"}),
+            "/at_s",
+            "must be a number",
+        ),
+    ] {
+        let all = problems(FrameRequest::from_value(&request));
+        assert_eq!(all[0].pointer, pointer, "{all:?}");
+        assert!(all[0].message.contains(part), "{all:?}");
+    }
 }

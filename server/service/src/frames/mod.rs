@@ -22,7 +22,7 @@ use picture::Asked;
 use welkin_encode::format_from_accept;
 use welkin_scene::frame::{Format, FrameRequest};
 
-/// One frame of a scene.
+/// One frame of a scene, or of a timeline at a time.
 ///
 /// The kind of file is that of `format`, else the one that `Accept` likes best, else PNG. The same request gives
 /// the same bytes from the same build on the same device, which is what `ETag` stands for.

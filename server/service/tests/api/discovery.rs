@@ -42,6 +42,7 @@ async fn schemas_are_those_of_the_scene() {
         ("scene", welkin_scene::schema::scene_schema()),
         ("frame", welkin_scene::schema::frame_request_schema()),
         ("probe", welkin_scene::schema::probe_request_schema()),
+        ("timeline", welkin_scene::schema::timeline_schema()),
     ] {
         assert_eq!(get(&app, &format!("/v1/schema/{kind}")).await.json(), schema);
     }

@@ -55,6 +55,48 @@ async fn an_empty_object_is_a_frame_with_all_its_headers() {
 }
 
 #[tokio::test]
+async fn a_timeline_is_served_at_its_time() {
+    let fake = Fake::new();
+    let app = router(&fake);
+    let timeline = json!({"scene": {"clouds": {}}, "keyframes": [
+        {"at_s": 0, "patch": {"clouds": {"coverage": 0.2}}},
+        {"at_s": 10, "patch": {"clouds": {"coverage": 0.6}}},
+    ]});
+    let at = |at_s: f64| json!({"timeline": timeline, "at_s": at_s, "width_px": 8, "height_px": 8});
+    let half = post(&app, "/v1/frames", at(5.0).to_string()).await;
+    assert_eq!(half.status, 200);
+    let scene = fake.orders.lock().unwrap()[0].scene.clone();
+    assert_eq!(scene.time_s, 5.0);
+    // Four roundings.
+    assert!((scene.clouds.as_ref().unwrap().coverage - 0.4).abs() < 1e-15);
+    // The tag stands for what is seen, however it was asked for.
+    let plain = json!({"scene": *scene, "width_px": 8, "height_px": 8});
+    let plain = post(&app, "/v1/frames", plain.to_string()).await;
+    assert_eq!(plain.header("etag"), half.header("etag"));
+    let later = post(&app, "/v1/frames", at(6.0).to_string()).await;
+    assert_ne!(later.header("etag"), half.header("etag"));
+
+    let mut both = at(5.0);
+    both["scene"] = json!({});
+    let mut wrong = at(5.0);
+    wrong["timeline"]["keyframes"][1]["patch"]["clouds"]["coverage"] = json!(6);
+    for (request, pointer) in [
+        (both, "/scene"),
+        (wrong, "/timeline/keyframes/1/patch/clouds/coverage"),
+        (json!({"at_s": 5}), "/at_s"),
+    ] {
+        let refused = post(&app, "/v1/frames", request.to_string()).await;
+        assert_eq!(refused.status, 422);
+        assert_eq!(
+            refused.json()["errors"][0]["pointer"],
+            pointer,
+            "{}",
+            refused.json()
+        );
+    }
+}
+
+#[tokio::test]
 async fn the_field_then_accept_then_png_choose_the_format() {
     let app = router(&Fake::new());
     for (field, accept, expected) in [

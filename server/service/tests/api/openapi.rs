@@ -9,7 +9,7 @@ use axum::{body::Body, http::Request};
 use serde_json::Value;
 
 /// The routes of the contract. `/docs` is a page about the others.
-const ROUTES: [(&str, &[&str]); 18] = [
+const ROUTES: [(&str, &[&str]); 19] = [
     ("/", &["get"]),
     ("/v1/frames", &["get", "post"]),
     ("/v1/live", &["get"]),
@@ -20,6 +20,7 @@ const ROUTES: [(&str, &[&str]); 18] = [
     ("/v1/schema/scene", &["get"]),
     ("/v1/schema/frame", &["get"]),
     ("/v1/schema/probe", &["get"]),
+    ("/v1/schema/timeline", &["get"]),
     ("/v1/device", &["get"]),
     ("/v1/assets", &["get"]),
     ("/v1/assets/{kind}", &["get"]),
