@@ -49,6 +49,38 @@ fn a_scene_is_completed() {
 }
 
 #[test]
+fn a_timeline_is_a_scene_at_each_time() {
+    const DAY: &str = r#"{"keyframes": [
+        {"at_s": 0, "patch": {"sun": {"position": {"azimuth_deg": 90, "elevation_deg": 0}}}},
+        {"at_s": 10, "patch": {"sun": {"position": {"azimuth_deg": 90, "elevation_deg": 80}}}}]}"#;
+    let scene = printed(&welkin(&["scene", "-", "--at-s", "5"], DAY));
+    let scene = Scene::from_value(&scene).unwrap();
+    assert_eq!(scene.time_s, 5.0);
+    // Through vectors and back: a few roundings at 90°.
+    assert!((scene.sun_place().elevation_deg - 40.0).abs() < 1e-12);
+    let wrong = DAY.replace("80", "800");
+    for command in [
+        &["scene", "-", "--at-s", "-5"][..],
+        &["render", "-", "--at-s", "5", "-o", "-", "--format", "png"],
+    ] {
+        let refused = welkin(command, &wrong);
+        assert_eq!(refused.status.code(), Some(2), "{command:?}");
+        let pointer = "/keyframes/1/patch/sun/position/elevation_deg";
+        assert!(said(&refused).contains(pointer), "{}", said(&refused));
+    }
+    for command in ["scene", "render"] {
+        let output = if command == "render" {
+            &["-o", "-"][..]
+        } else {
+            &[]
+        };
+        let never = welkin(&[&[command, "-", "--at-s", "nan"], output].concat(), "{}");
+        assert_eq!(never.status.code(), Some(2), "{}", said(&never));
+        assert!(said(&never).contains("not a finite number"), "{}", said(&never));
+    }
+}
+
+#[test]
 fn a_weather_report_becomes_a_scene() {
     let output = welkin(&["scene", "--metar", FOG, "--date", "2018-09-03"], "");
     let scene = Scene::from_value(&printed(&output)).unwrap();

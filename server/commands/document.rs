@@ -30,6 +30,15 @@ pub(crate) fn timeline(name: &str) -> Result<Timeline, Failure> {
     Ok(Timeline::from_json(&text(name)?)?)
 }
 
+/// A time in a timeline.
+///
+/// # Errors
+/// Where it is no number that JSON has.
+pub(crate) fn seconds(text: &str) -> Result<f64, String> {
+    let seconds = text.parse().ok().filter(|seconds: &f64| seconds.is_finite());
+    seconds.ok_or_else(|| "not a finite number of seconds".into())
+}
+
 /// A preset by its name.
 ///
 /// # Errors

@@ -16,7 +16,7 @@ pub(crate) struct Args {
     /// Scene document: a file, - for standard input, or preset:NAME; with --at-s, a timeline
     scene: String,
     /// Time in a timeline, seconds
-    #[arg(long, value_name = "SECONDS", allow_negative_numbers = true)]
+    #[arg(long, value_name = "SECONDS", value_parser = document::seconds, allow_negative_numbers = true)]
     at_s: Option<f64>,
     /// File to write, - for standard output; its name tells the format
     #[arg(short, long, value_name = "FILE")]

@@ -8,9 +8,18 @@ use welkin_scene::{MetarAnswer, MetarRequest};
 /// Arguments of `welkin scene`.
 #[derive(clap::Args)]
 pub(crate) struct Args {
-    /// Scene document: a file, - for standard input, or preset:NAME
+    /// Scene document: a file, - for standard input, or preset:NAME; with --at-s, a timeline
     #[arg(required_unless_present = "metar", conflicts_with = "metar")]
     scene: Option<String>,
+    /// Time in a timeline, seconds
+    #[arg(
+        long,
+        value_name = "SECONDS",
+        value_parser = document::seconds,
+        conflicts_with = "metar",
+        allow_negative_numbers = true
+    )]
+    at_s: Option<f64>,
     /// Weather report (METAR or SPECI) that tells the air, the time and the place; - for standard input. With --json the
     /// answer of POST /v1/scenes/from-metar is printed, the report with the scene
     #[arg(long, value_name = "REPORT")]
@@ -44,7 +53,11 @@ pub(crate) struct Args {
 /// Where the scene or the report is refused.
 pub(crate) fn run(args: &Args, json: bool) -> Result<(), Failure> {
     let Some(metar) = &args.metar else {
-        let scene = document::scene(args.scene.as_deref().unwrap_or(STANDARD))?;
+        let name = args.scene.as_deref().unwrap_or(STANDARD);
+        let scene = match args.at_s {
+            Some(at_s) => document::timeline(name)?.at(at_s)?,
+            None => document::scene(name)?,
+        };
         return document::print(&json!(scene), !json);
     };
     let answer = request(args, metar)?.scene(SystemTime::now())?;
