@@ -12,6 +12,9 @@ pub const MAX_SIDE_PX: u32 = 16_384;
 pub struct FrameRequest {
     /// What is seen.
     pub scene: Scene,
+    /// Where in the document that stands.
+    #[serde(skip)]
+    pub source: Source,
     /// Width, pixels.
     pub width_px: u32,
     /// Height, pixels.
@@ -22,10 +25,21 @@ pub struct FrameRequest {
     pub quality: Quality,
 }
 
+/// Where the scene of a frame comes from.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Source {
+    /// It was given.
+    #[default]
+    Scene,
+    /// It is a timeline's at some time.
+    Timeline,
+}
+
 impl Default for FrameRequest {
     fn default() -> Self {
         Self {
             scene: Scene::default(),
+            source: Source::Scene,
             width_px: 1280,
             height_px: 720,
             format: None,
@@ -65,6 +79,7 @@ impl Default for FrameDocument {
     fn default() -> Self {
         let FrameRequest {
             scene: _,
+            source: _,
             width_px,
             height_px,
             format,

@@ -4,7 +4,7 @@ use crate::{
     check::Check,
     document::Scene,
     explain::explain,
-    frame::{FrameDocument, FrameRequest},
+    frame::{FrameDocument, FrameRequest, Source},
     metar::MetarRequest,
     probe::ProbeRequest,
     problem::{Problem, Problems, SceneError, echo, member},
@@ -85,6 +85,10 @@ impl FrameRequest {
         let document: FrameDocument = read(&FRAME, value)?;
         Ok(Self {
             scene: document.seen()?,
+            source: match document.timeline {
+                Some(_) => Source::Timeline,
+                None => Source::Scene,
+            },
             width_px: document.width_px,
             height_px: document.height_px,
             format: document.format,

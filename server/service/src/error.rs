@@ -258,6 +258,16 @@ impl Error {
         }
     }
 
+    /// Puts `pointer` in place of every pointer: faults of what is only derived from that part.
+    pub(crate) fn pointing_to(mut self, pointer: &str) -> Self {
+        if let Self::Invalid(faults) = &mut self {
+            for fault in faults {
+                fault.pointer = Some(pointer.into());
+            }
+        }
+        self
+    }
+
     /// Puts `prefix` before every pointer: faults of a part, told in the terms of the whole.
     pub(crate) fn within(mut self, prefix: &str) -> Self {
         if let Self::Invalid(faults) = &mut self {

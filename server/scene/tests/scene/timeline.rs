@@ -2,7 +2,7 @@
 
 use crate::faults::problems;
 use serde_json::{Value, json};
-use welkin_scene::{FrameRequest, Scene, Timeline, clouds::WeatherMap};
+use welkin_scene::{FrameRequest, Scene, Timeline, clouds::WeatherMap, frame::Source};
 
 pub(crate) fn timeline(scene: &Value, keyframes: &[(f64, Value)]) -> Timeline {
     let keyframes: Vec<_> = keyframes
@@ -302,7 +302,8 @@ fn a_frame_is_of_a_scene_or_of_a_timeline() {
     assert_eq!(same.scene, begin.scene);
     // What is written is of a scene.
     let written = serde_json::to_value(&begin).unwrap();
-    assert_eq!(FrameRequest::from_value(&written).unwrap(), begin);
+    assert_eq!(FrameRequest::from_value(&written).unwrap(), same);
+    assert_eq!((begin.source, same.source), (Source::Timeline, Source::Scene));
 
     let late = json!({"scene": {"sun": {"position": {"time": "2099-01-01T00:00:00Z", "latitude_deg": 0, "longitude_deg": 0}}}});
     let cube = json!({"scene": {"camera": {"projection": {"kind": "cubemap"}}}});

@@ -20,7 +20,7 @@ use axum::{
 };
 use picture::Asked;
 use welkin_encode::format_from_accept;
-use welkin_scene::frame::{Format, FrameRequest};
+use welkin_scene::frame::{self, Format, FrameRequest};
 
 /// One frame of a scene, or of a timeline at a time.
 ///
@@ -50,7 +50,7 @@ pub(crate) async fn post_frame(
     JsonText(body): JsonText,
 ) -> Result<Response, Error> {
     let request = FrameRequest::from_json(&body)?;
-    frame(&service, request, &headers).await
+    answer(&service, request, &headers).await
 }
 
 /// One frame of a preset, all in the query.
@@ -68,18 +68,22 @@ pub(crate) async fn get_frame(
     RawQuery(query): RawQuery,
 ) -> Result<Response, Error> {
     let request = query::read(query.as_deref().unwrap_or_default())?;
-    frame(&service, request, &headers)
+    answer(&service, request, &headers)
         .await
         .map_err(query::in_query_terms)
 }
 
-async fn frame(service: &Service, request: FrameRequest, headers: &HeaderMap) -> Result<Response, Error> {
+async fn answer(service: &Service, request: FrameRequest, headers: &HeaderMap) -> Result<Response, Error> {
     let format = match request.format {
         Some(format) => format,
         None => accepted(headers)?,
     };
     let assets = service.assets_of(&request.scene).await;
-    let assets = assets.map_err(|e| e.within("/scene"))?;
+    let assets = assets.map_err(|e| match request.source {
+        frame::Source::Scene => e.within("/scene"),
+        // The name may stand in any of its keyframes.
+        frame::Source::Timeline => e.pointing_to("/timeline"),
+    })?;
     let asked = Asked::new(service, request, assets, format)?;
     let quality = asked.request.quality;
     if headers::has_copy(headers, &asked.etag()) {

@@ -84,6 +84,11 @@ async fn a_timeline_is_served_at_its_time() {
         (both, "/scene"),
         (wrong, "/timeline/keyframes/1/patch/clouds/coverage"),
         (json!({"at_s": 5}), "/at_s"),
+        (
+            json!({"timeline": {"keyframes": [
+                {"at_s": 0, "patch": {"clouds": {"weather_map": {"kind": "asset", "name": "none"}}}}]}}),
+            "/timeline",
+        ),
     ] {
         let refused = post(&app, "/v1/frames", request.to_string()).await;
         assert_eq!(refused.status, 422);
