@@ -5,7 +5,9 @@ import package::lib::camera::{Camera, sight_at};
 import package::lib::geometry::{
     PI, angle_if_near, angle_of_cosine, distance_to_sphere, edge_zenith_angle, horizon_distance_squared,
 };
+import package::lib::phase::{cornette_shanks_phase, rayleigh_phase};
 import package::lib::light::{View, disc_radiance, ground_radiance, scattered_radiance};
+import package::lib::picture::{Exposure, Tone, picture_pixel};
 import package::lib::moon::{Moon, corona, moon_radiance, place_on_moon};
 import package::lib::scattering::{March, Scattered, scatter_along};
 import package::lib::source::cosine_of_azimuth;
@@ -28,6 +30,14 @@ override PROJECTION: u32 = 0u;
 override AIRGLOW: bool = true;
 override MOON: bool = false;
 override MOONLIGHT: bool = false;
+
+// True to write the picture itself, where nothing else reads its radiance: to store and load four floats a pixel is
+// half of a software device's work on a clear sky.
+override PICTURE: bool = false;
+// Pixels of a row that share a thread, so that they may share the light in the air where it runs evenly.
+override SPAN: u32 = 1u;
+// As `picture_pixel` numbers it.
+override CURVE: u32 = 3u;
 
 struct Tile {
     origin_px: vec2u,
@@ -53,13 +63,16 @@ struct Tile {
 @group(0) @binding(13) var<uniform> moon_view: View;
 @group(0) @binding(14) var moon_sky_view_table: texture_2d_array<f32>;
 @group(0) @binding(15) var moon_face: texture_2d<f32>;
+@group(0) @binding(16) var<uniform> tone_settings: Tone;
+@group(0) @binding(17) var<storage, read> exposure: Exposure;
+@group(0) @binding(18) var<storage, read_write> picture: array<u32>;
 
 fn light_in_air(ray: SkyViewRay, mu: f32, nu: f32) -> Scattered {
     if METHOD != 0u {
         var light: Scattered;
         let entry = enter_air(air, observer, mu, nu, ray.ground, ray.distance_m);
         if entry.length_m > 0.0 {
-            let march = March(true, MULTIPLE, HAZE, METHOD == 2u, observer.steps, 4u, observer.sun_steps);
+            let march = March(true, MULTIPLE, HAZE, METHOD == 2u, observer.steps, 6u, observer.sun_steps);
             light = scatter_along(air, entry, transmittance_table, source_table, linear_clamp, march);
         }
         return light;
@@ -159,10 +172,20 @@ fn moonlight_in_air(direction: vec3f, mu: f32, zenith_angle: f32, ground: bool, 
 // A ray that nothing stops.
 const ENDLESS_M = 1e12;
 
-fn radiance_towards(direction: vec3f, disc: vec3f) -> vec3f {
-    let mu = dot(direction, view.up);
+// What is between the observer and the discs, in one direction.
+struct Light {
+    // Times the Rayleigh phase function.
+    rayleigh: vec3f,
+    // Times the Mie phase function.
+    mie: vec3f,
+    // No phase function.
+    even: vec3f,
+    // Transmittance to the discs, none where the ground hides them.
+    left: vec3f,
+}
+
+fn light_towards(direction: vec3f, mu: f32, nu: f32) -> Light {
     let zenith_angle = angle_of_cosine(mu);
-    let nu = clamp(dot(direction, view.sun), -1.0, 1.0);
     let azimuth = azimuth_from(view, mu, nu);
     let horizon = edge_zenith_angle(air.radius_m, view.altitude_m);
     // Share of the pixel above the horizon, for an even edge.
@@ -171,7 +194,7 @@ fn radiance_towards(direction: vec3f, disc: vec3f) -> vec3f {
     let edge_m = sqrt(horizon_distance_squared(air.radius_m, view.altitude_m));
     // One side of the horizon, and where the pixel lies on it the other as well: a loop, since a software device runs
     // both sides of a branch.
-    var sum = vec3f(0.0);
+    var sum: Light;
     for (var side = 0u; side < select(1u, 2u, above > 0.0 && above < 1.0); side++) {
         let ground = (above < 0.5) != (side == 1u);
         let share = select(above, 1.0 - above, ground);
@@ -181,17 +204,17 @@ fn radiance_towards(direction: vec3f, disc: vec3f) -> vec3f {
         let ray_angle = select(min(zenith_angle, horizon), zenith_angle, ground);
         let distance_m = select(select(met_m, edge_m, turned), ENDLESS_M, !ground);
         var light: Scattered;
-        var in_air = vec3f(0.0);
+        var even = vec3f(0.0);
         if ground || ray_angle >= least_zenith_angle(air.radius_m, air.top_m, view.altitude_m) {
             light = light_in_air(SkyViewRay(azimuth, ray_angle, ground, distance_m), ray_mu, nu);
-            in_air = scattered_radiance(air, view, light, nu);
+            even = view.sun_irradiance * light.multiple;
             if MOONLIGHT {
-                in_air += moonlight_in_air(direction, mu, ray_angle, ground, distance_m);
+                even += moonlight_in_air(direction, mu, ray_angle, ground, distance_m);
             }
         }
-        var behind = disc;
+        let left = exp(-light.optical_depth);
         if ground {
-            behind = ground_radiance(air, view, nu, distance_m, transmittance_table, irradiance_table, linear_clamp);
+            var behind = ground_radiance(air, view, nu, distance_m, transmittance_table, irradiance_table, linear_clamp);
             if AIRGLOW {
                 behind += air.ground_albedo / PI * glow.ground_irradiance;
             }
@@ -199,32 +222,96 @@ fn radiance_towards(direction: vec3f, disc: vec3f) -> vec3f {
                 let nu_moon = clamp(dot(direction, moon_view.sun), -1.0, 1.0);
                 behind += ground_radiance(air, moon_view, nu_moon, distance_m, transmittance_table, irradiance_table, linear_clamp);
             }
+            even += left * behind;
         }
         if AIRGLOW {
-            in_air += airglow_radiance(glow, air.radius_m, view.altitude_m, mu, distance_m, light.optical_depth);
+            even += airglow_radiance(glow, air.radius_m, view.altitude_m, mu, distance_m, light.optical_depth);
         }
-        sum += share * (in_air + exp(-light.optical_depth) * behind);
+        sum.rayleigh += share * light.rayleigh;
+        sum.mie += share * light.mie;
+        sum.even += share * even;
+        sum.left += select(share, 0.0, ground) * left;
     }
     return sum;
 }
 
+// Light of a run of pixels from that at its ends, where it runs evenly: both the angle from the zenith and that to the
+// light change by less than a part of a table's cell, and the run stays away from the horizon by many times its own
+// change, since there all runs by the distance from it. Seen from above, the air over the limb does not run evenly.
+const EVEN_ANGLE = 0.025;
+const EVEN_SHARE = 0.06;
+
+fn is_even_run(mu_first: f32, mu_last: f32, length: f32) -> bool {
+    let least_mu = cos(least_zenith_angle(air.radius_m, air.top_m, view.altitude_m));
+    if view.altitude_m > air.top_m && min(mu_first, mu_last) > least_mu {
+        // Nothing but space.
+        return true;
+    }
+    let horizon_mu = cos(edge_zenith_angle(air.radius_m, view.altitude_m));
+    let near = min(abs(mu_first - horizon_mu), abs(mu_last - horizon_mu));
+    let one_side = (mu_first < horizon_mu) == (mu_last < horizon_mu);
+    let inside = mu_first < horizon_mu || view.altitude_m < 0.2 * air.top_m;
+    let change = abs(mu_first - mu_last);
+    return one_side && inside && length < EVEN_ANGLE && change < EVEN_SHARE * near && near > 2.0 * camera.pixel_angle;
+}
+
+fn radiance_of(light: Light, nu: f32, disc: vec3f) -> vec3f {
+    let single = rayleigh_phase(nu) * light.rayleigh + cornette_shanks_phase(nu, air.mie_asymmetry) * light.mie;
+    return view.sun_irradiance * single + light.even + light.left * disc;
+}
+
 @compute @workgroup_size(8, 8)
 fn sky(@builtin(global_invocation_id) id: vec3u) {
-    if any(id.xy >= tile.size_px) {
+    let first = id.x * SPAN;
+    if first >= tile.size_px.x || id.y >= tile.size_px.y {
         return;
     }
-    let place = vec2f(tile.origin_px + id.xy) + 0.5;
-    let sight = sight_at(camera, PROJECTION, place);
-    var value = vec4f(0.0);
-    if sight.seen {
-        var disc = disc_in_pixel(place, sight.direction);
-        var glaring = view.sun;
-        if MOON {
-            disc = moon.sun_disc_scale * disc + moon_in_pixel(place, sight.direction);
-            disc += moon.sun_disc_scale * corona_towards(sight.direction);
-            glaring = select(view.sun, moon.direction, moon.glares == 1.0);
+    let count = min(SPAN, tile.size_px.x - first);
+    let row = vec2f(tile.origin_px + vec2u(first, id.y)) + 0.5;
+    var even = false;
+    var at_first: Light;
+    var at_last: Light;
+    if SPAN > 1u {
+        let a = sight_at(camera, PROJECTION, row);
+        let b = sight_at(camera, PROJECTION, row + vec2f(f32(SPAN - 1u), 0.0));
+        let mu_a = dot(a.direction, view.up);
+        let mu_b = dot(b.direction, view.up);
+        even = a.seen && b.seen && is_even_run(mu_a, mu_b, angle_if_near(a.direction, b.direction));
+        if even {
+            at_first = light_towards(a.direction, mu_a, clamp(dot(a.direction, view.sun), -1.0, 1.0));
+            at_last = light_towards(b.direction, mu_b, clamp(dot(b.direction, view.sun), -1.0, 1.0));
         }
-        value = vec4f(radiance_towards(sight.direction, disc), 1.0 + angle_if_near(sight.direction, glaring));
     }
-    radiance[id.y * tile.size_px.x + id.x] = value;
+    for (var k = 0u; k < count; k++) {
+        let place = row + vec2f(f32(k), 0.0);
+        let sight = sight_at(camera, PROJECTION, place);
+        var value = vec4f(0.0);
+        if sight.seen {
+            var disc = disc_in_pixel(place, sight.direction);
+            var glaring = view.sun;
+            if MOON {
+                disc = moon.sun_disc_scale * disc + moon_in_pixel(place, sight.direction);
+                disc += moon.sun_disc_scale * corona_towards(sight.direction);
+                glaring = select(view.sun, moon.direction, moon.glares == 1.0);
+            }
+            let nu = clamp(dot(sight.direction, view.sun), -1.0, 1.0);
+            var light: Light;
+            if even {
+                let x = f32(k) / f32(max(SPAN, 2u) - 1u);
+                light.rayleigh = mix(at_first.rayleigh, at_last.rayleigh, x);
+                light.mie = mix(at_first.mie, at_last.mie, x);
+                light.even = mix(at_first.even, at_last.even, x);
+                light.left = mix(at_first.left, at_last.left, x);
+            } else {
+                light = light_towards(sight.direction, dot(sight.direction, view.up), nu);
+            }
+            value = vec4f(radiance_of(light, nu, disc), 1.0 + angle_if_near(sight.direction, glaring));
+        }
+        let i = id.y * tile.size_px.x + first + k;
+        if PICTURE {
+            picture[i] = picture_pixel(tone_settings, exposure.scale, CURVE, value, tile.origin_px + vec2u(first + k, id.y));
+        } else {
+            radiance[i] = value;
+        }
+    }
 }

@@ -18,10 +18,10 @@ use crate::{
         exposure::{EXPOSURE_BYTES, ExposurePass, meter_size},
         multi_scattering::{MultiScattering, MultiScatteringPass, Wanted},
         probe::{Probe, ProbeInputs, Seen, Sight},
-        sky::{Sky, SkyInputs},
+        sky::{Sky, SkyInputs, SkyTo},
         sky_view::SkyView,
         stars::{StarsInputs, StarsOut, StarsPass},
-        tone::Tone,
+        tone::{Tone, ToneInputs},
         transmittance::Transmittance,
     },
     renderer::RendererSettings,
@@ -226,9 +226,30 @@ impl Engine {
             let inputs = frame.sky_inputs();
             let stars = frame.stars.as_ref().map(StarsOut::fingerprint);
             let made_from = Fingerprint::of((inputs.fingerprint(&Part::new(&tile)), stars));
-            // Emptied until the commands have run.
-            if buffers.holds.take() != Some(made_from) {
-                self.sky.run(&mut recorder, inputs, tile, &buffers.radiance);
+            let (settings, known_ev) = ToneUniform::new(
+                &order.scene,
+                &frame.camera,
+                &frame.tables.stand,
+                tile,
+                &frame.lights.glare,
+            );
+            let tone = ToneInputs {
+                curve: order.scene.display.tone_curve,
+                settings: &settings,
+                exposure: &frame.exposure,
+            };
+            let display = order.output == Output::Display;
+            // Whoever comes twice turns at the display: for them the radiance is kept.
+            let at_once = display && frame.stars.is_none() && buffers.shown != Some(made_from);
+            // Both emptied until the commands have run.
+            let (held, _) = (buffers.holds.take(), buffers.shown.take());
+            if held != Some(made_from) {
+                let to = if at_once {
+                    SkyTo::Picture(tone, &buffers.picture)
+                } else {
+                    SkyTo::Radiance(&buffers.radiance)
+                };
+                self.sky.run(&mut recorder, inputs, tile, to);
                 if let Some(stars) = &frame.stars {
                     let reads = StarsInputs {
                         air: inputs.air,
@@ -239,26 +260,15 @@ impl Engine {
                         .run(&mut recorder, reads, stars, tile, &buffers.radiance);
                 }
             }
-            let (settings, known_ev) = ToneUniform::new(
-                &order.scene,
-                &frame.camera,
-                &frame.tables.stand,
-                tile,
-                &frame.lights.glare,
-            );
-            let (source, size) = match order.output {
-                Output::Linear => (&buffers.radiance, RADIANCE_BYTES * pixels),
-                Output::Display => {
-                    self.tone.run(
-                        &mut recorder,
-                        order.scene.display.tone_curve,
-                        &settings,
-                        &frame.exposure,
-                        &buffers.radiance,
-                        &buffers.picture,
-                    );
-                    (&buffers.picture, PICTURE_BYTES * pixels)
-                }
+            let is_held = held == Some(made_from) || !at_once;
+            if display && is_held {
+                self.tone
+                    .run(&mut recorder, tone, &buffers.radiance, &buffers.picture);
+            }
+            let (source, size) = if display {
+                (&buffers.picture, PICTURE_BYTES * pixels)
+            } else {
+                (&buffers.radiance, RADIANCE_BYTES * pixels)
             };
             recorder
                 .encoder
@@ -271,7 +281,11 @@ impl Engine {
                 let exposure: &[f32] = bytemuck::cast_slice(bytes[1]);
                 (take(bytes[0]), f64::from(exposure[1]))
             })?;
-            buffers.holds = Some(made_from);
+            if is_held {
+                buffers.holds = Some(made_from);
+            } else {
+                (buffers.holds, buffers.shown) = (held, Some(made_from));
+            }
             let ev = match order.output {
                 Output::Display if settings.metered == 1 => Some(metered_ev),
                 Output::Display => known_ev,

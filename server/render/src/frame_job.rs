@@ -24,6 +24,9 @@ const TILE_MS: std::ops::Range<f64> = 8.0..30.0;
 /// Sizes between which the budget moves, pixels. The largest keeps 24 MiB of radiance on the device.
 const TILE_PIXELS: std::ops::RangeInclusive<u32> = 1 << 13..=3 << 18;
 
+/// Pixels of a row that a pass may compute together.
+pub(crate) const RUN: u32 = 8;
+
 /// Fewer would leave a device's lanes idle.
 const LEAST_PIXELS: u32 = 64;
 
@@ -47,7 +50,13 @@ impl TileBudget {
     /// The next tile: as wide as fits, then as high.
     fn next(&self, from: UVec2, frame: UVec2, work_per_pixel: u32) -> TileUniform {
         let pixels = (self.pixels / work_per_pixel).max(LEAST_PIXELS.min(self.pixels));
-        let width = (frame.x - from.x).min(pixels);
+        // Pixels that share a thread share it in every tile, or the tile would show.
+        let whole_runs = if pixels < RUN {
+            pixels
+        } else {
+            pixels - pixels % RUN
+        };
+        let width = (frame.x - from.x).min(whole_runs);
         let height = if width == frame.x {
             (pixels / width).clamp(1, frame.y - from.y)
         } else {

@@ -18,6 +18,8 @@ pub(crate) struct Buffers {
     pixels: u64,
     /// What the radiance was made from.
     pub(crate) holds: Option<Fingerprint>,
+    /// What a picture was made from whose radiance was not kept.
+    pub(crate) shown: Option<Fingerprint>,
 }
 
 /// Buffers for tiles, made when the first is asked for and again when a larger one is.
@@ -44,6 +46,7 @@ impl Screen {
                 exposure: gpu.buffer("exposure", EXPOSURE_BYTES, readable),
                 pixels,
                 holds: None,
+                shown: None,
             }
         }))
     }

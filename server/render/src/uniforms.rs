@@ -213,8 +213,8 @@ pub(crate) struct MeterUniform {
     pub(crate) compensation_ev: f32,
 }
 
-/// `Tone` of `tone.wgsl`.
-#[derive(Clone, Debug, ShaderType)]
+/// `Tone` of `lib/picture.wgsl`.
+#[derive(Clone, Debug, Default, ShaderType)]
 pub(crate) struct ToneUniform {
     pub(crate) white_r: Vec3,
     pub(crate) dither: u32,

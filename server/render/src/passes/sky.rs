@@ -1,13 +1,26 @@
 //! Radiance of every pixel of a tile.
 
-use super::Table;
+use super::{
+    Table,
+    tone::{ToneInputs, curve_code},
+};
 use crate::{
+    frame_job::RUN,
     kernel::{Bind, Recorder, Variants},
     memo::Fingerprint,
     method::Plan,
     shader,
-    uniforms::{Part, TileUniform, night::MoonUniform},
+    uniforms::{Part, TileUniform, ToneUniform, night::MoonUniform},
 };
+use welkin_scene::Method;
+
+/// Where the pass writes.
+pub(crate) enum SkyTo<'a> {
+    /// Four floats a pixel.
+    Radiance(&'a wgpu::Buffer),
+    /// Four bytes a pixel, where nothing else reads the radiance.
+    Picture(ToneInputs<'a>, &'a wgpu::Buffer),
+}
 
 pub(crate) struct Sky {
     kernels: Variants,
@@ -66,15 +79,28 @@ impl Sky {
         }
     }
 
-    /// Writes one tile into `radiance`, four floats a pixel.
+    /// Writes one tile.
     pub(crate) fn run(
         &mut self,
         recorder: &mut Recorder<'_>,
         inputs: SkyInputs<'_>,
         tile: TileUniform,
-        radiance: &wgpu::Buffer,
+        to: SkyTo<'_>,
     ) {
         let gpu = recorder.gpu;
+        // A buffer that a variant does not write must still be bound, and bound once.
+        let unused = || gpu.buffer("unused", 16, wgpu::BufferUsages::STORAGE);
+        let (radiance, picture, exposure, settings, curve) = match to {
+            SkyTo::Radiance(radiance) => {
+                let nothing = Part::new(&ToneUniform::default());
+                (radiance, &unused(), &unused(), nothing, None)
+            }
+            SkyTo::Picture(tone, picture) => {
+                let settings = Part::new(tone.settings);
+                (&unused(), picture, tone.exposure, settings, Some(tone.curve))
+            }
+        };
+        let settings = settings.upload(gpu, "tone");
         let air = inputs.air.upload(gpu, "air");
         let view = inputs.view.upload(gpu, "view");
         let camera = inputs.camera.upload(gpu, "camera");
@@ -107,6 +133,9 @@ impl Sky {
             Bind::Buffer(&moon_view),
             Bind::Table(&moon_sky_view.unwrap_or(inputs.source).view),
             Bind::Table(face),
+            Bind::Buffer(&settings),
+            Bind::Buffer(exposure),
+            Bind::Buffer(picture),
         ];
         let flag = |on: bool| f64::from(u8::from(on));
         let mut constants = vec![
@@ -116,10 +145,21 @@ impl Sky {
             ("MOON", flag(inputs.moon.is_some())),
             ("MOONLIGHT", flag(moon_sky_view.is_some())),
         ];
+        // Moonlight and rays of their own change from pixel to pixel.
+        let span = if inputs.plan.method == Method::Lut && moon_sky_view.is_none() {
+            RUN
+        } else {
+            1
+        };
+        constants.push(("SPAN", f64::from(span)));
+        if let Some(curve) = curve {
+            constants.extend([("PICTURE", 1.0), ("CURVE", curve_code(curve))]);
+        }
         if inputs.sky_view.is_none() {
             constants.extend(inputs.plan.march_constants());
         }
         let kernel = self.kernels.get(gpu, &constants);
-        recorder.dispatch(kernel, &binds, [tile.size_px.x, tile.size_px.y, 1]);
+        let threads = [tile.size_px.x.div_ceil(span), tile.size_px.y, 1];
+        recorder.dispatch(kernel, &binds, threads);
     }
 }

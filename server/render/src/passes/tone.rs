@@ -7,6 +7,14 @@ use crate::{
 };
 use welkin_scene::ToneCurve;
 
+/// How radiance becomes the picture.
+#[derive(Clone, Copy)]
+pub(crate) struct ToneInputs<'a> {
+    pub(crate) curve: ToneCurve,
+    pub(crate) settings: &'a ToneUniform,
+    pub(crate) exposure: &'a wgpu::Buffer,
+}
+
 pub(crate) struct Tone {
     /// By curve.
     kernels: Variants,
@@ -23,26 +31,30 @@ impl Tone {
     pub(crate) fn run(
         &mut self,
         recorder: &mut Recorder<'_>,
-        curve: ToneCurve,
-        settings: &ToneUniform,
-        exposure: &wgpu::Buffer,
+        inputs: ToneInputs<'_>,
         radiance: &wgpu::Buffer,
         picture: &wgpu::Buffer,
     ) {
-        let code: u8 = match curve {
-            ToneCurve::Reinhard => 0,
-            ToneCurve::Exponential => 1,
-            ToneCurve::Aces => 2,
-            ToneCurve::Agx => 3,
-        };
-        let kernel = self.kernels.get(recorder.gpu, &[("CURVE", f64::from(code))]);
-        let uniform = Part::new(settings).upload(recorder.gpu, "tone");
+        let constants = [("CURVE", curve_code(inputs.curve))];
+        let kernel = self.kernels.get(recorder.gpu, &constants);
+        let uniform = Part::new(inputs.settings).upload(recorder.gpu, "tone");
         let binds = [
             Bind::Buffer(&uniform),
-            Bind::Buffer(exposure),
+            Bind::Buffer(inputs.exposure),
             Bind::Buffer(radiance),
             Bind::Buffer(picture),
         ];
-        recorder.dispatch(kernel, &binds, [settings.size_px.x, settings.size_px.y, 1]);
+        let size = inputs.settings.size_px;
+        recorder.dispatch(kernel, &binds, [size.x, size.y, 1]);
+    }
+}
+
+/// As the shaders number it.
+pub(crate) const fn curve_code(curve: ToneCurve) -> f64 {
+    match curve {
+        ToneCurve::Reinhard => 0.0,
+        ToneCurve::Exponential => 1.0,
+        ToneCurve::Aces => 2.0,
+        ToneCurve::Agx => 3.0,
     }
 }

@@ -262,7 +262,7 @@ fn tone() {
             size_px: uvec2,
         }
     );
-    check(&[&shader::TONE], "Tone", &part, &f);
+    check(&[&shader::TONE, &shader::SKY], "Tone", &part, &f);
 }
 
 #[test]
@@ -349,6 +349,7 @@ fn every_uniform_is_tested() {
         ("sky", "Airglow"),
         ("sky", "Moon"),
         ("sky", "View"),
+        ("sky", "Tone"),
         ("stars", "Air"),
         ("stars", "View"),
         ("stars", "Stretch"),
