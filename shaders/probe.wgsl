@@ -2,7 +2,7 @@
 import package::lib::air::Air;
 import package::lib::airglow::{Airglow, airglow_radiance};
 import package::lib::geometry::{PI, angle_between, distance_to_sphere};
-import package::lib::light::{View, ground_radiance, scattered_radiance, sun_disc};
+import package::lib::light::{UNSHADED, View, ground_radiance, scattered_radiance, sun_disc};
 import package::lib::moon::{Moon, moon_radiance, place_on_moon};
 import package::lib::scattering::{March, Scattered, scatter_along};
 import package::lib::view_ray::{Observer, enter_air};
@@ -78,7 +78,7 @@ fn probe(@builtin(global_invocation_id) id: vec3u) {
         + airglow_radiance(glow, air.radius_m, view.altitude_m, mu, select(ENDLESS_M, ground_m, ground), light.optical_depth);
     var behind = directions[id.x].w * discs(direction);
     if ground {
-        behind = ground_radiance(air, view, nu, ground_m, transmittance_table, irradiance_table, linear_clamp)
+        behind = ground_radiance(air, view, nu, ground_m, transmittance_table, irradiance_table, linear_clamp, UNSHADED)
             + air.ground_albedo / PI * glow.ground_irradiance;
     }
     if MOONLIGHT {
@@ -90,7 +90,7 @@ fn probe(@builtin(global_invocation_id) id: vec3u) {
             between += scattered_radiance(air, moon_view, scattered, nu_moon);
         }
         if ground {
-            behind += ground_radiance(air, moon_view, nu_moon, ground_m, transmittance_table, irradiance_table, linear_clamp);
+            behind += ground_radiance(air, moon_view, nu_moon, ground_m, transmittance_table, irradiance_table, linear_clamp, UNSHADED);
         }
     }
     answers[id.x] = Answer(between + transmittance * behind, ground_m, transmittance);

@@ -6,7 +6,8 @@ import package::lib::geometry::{
     PI, angle_if_near, angle_of_cosine, distance_to_sphere, edge_zenith_angle, horizon_distance_squared,
 };
 import package::lib::phase::{cornette_shanks_phase, rayleigh_phase};
-import package::lib::light::{View, disc_radiance, ground_radiance, scattered_radiance};
+import package::lib::cloud_shade::{CloudShade, ground_shaded};
+import package::lib::light::{UNSHADED, View, disc_radiance, ground_radiance, scattered_radiance};
 import package::lib::picture::{Exposure, Tone, picture_pixel};
 import package::lib::moon::{Moon, corona, moon_radiance, place_on_moon};
 import package::lib::scattering::{March, Scattered, scatter_along};
@@ -30,6 +31,8 @@ override PROJECTION: u32 = 0u;
 override AIRGLOW: bool = true;
 override MOON: bool = false;
 override MOONLIGHT: bool = false;
+// True where there are clouds.
+override CLOUDS: bool = false;
 
 // True to write the picture itself, where nothing else reads its radiance: to store and load four floats a pixel is
 // half of a software device's work on a clear sky.
@@ -38,6 +41,16 @@ override PICTURE: bool = false;
 override SPAN: u32 = 1u;
 // As `picture_pixel` numbers it.
 override CURVE: u32 = 3u;
+
+// How the clouds' table lies on the picture.
+struct CloudFrame {
+    // The observer's place in the scene.
+    place_m: vec3f,
+    // Texels to a pixel.
+    fineness: f32,
+    // The light that casts their shadows.
+    light: vec3f,
+}
 
 struct Tile {
     origin_px: vec2u,
@@ -66,6 +79,11 @@ struct Tile {
 @group(0) @binding(16) var<uniform> tone_settings: Tone;
 @group(0) @binding(17) var<storage, read> exposure: Exposure;
 @group(0) @binding(18) var<storage, read_write> picture: array<u32>;
+// What clouds add in R, G and B, and what they let through.
+@group(0) @binding(19) var cloud_table: texture_2d<f32>;
+@group(0) @binding(20) var<uniform> shade: CloudShade;
+@group(0) @binding(21) var shade_maps: texture_2d_array<f32>;
+@group(0) @binding(22) var<uniform> cloud_frame: CloudFrame;
 
 fn light_in_air(ray: SkyViewRay, mu: f32, nu: f32) -> Scattered {
     if METHOD != 0u {
@@ -214,13 +232,19 @@ fn light_towards(direction: vec3f, mu: f32, nu: f32) -> Light {
         }
         let left = exp(-light.optical_depth);
         if ground {
-            var behind = ground_radiance(air, view, nu, distance_m, transmittance_table, irradiance_table, linear_clamp);
+            var shaded = UNSHADED;
+            if CLOUDS {
+                let p = cloud_frame.place_m + distance_m * direction;
+                let mu_light = dot(normalize(p + vec3f(0.0, 0.0, air.radius_m)), cloud_frame.light);
+                shaded = ground_shaded(shade, shade_maps, linear_clamp, air.radius_m, p, cloud_frame.light, mu_light);
+            }
+            var behind = ground_radiance(air, view, nu, distance_m, transmittance_table, irradiance_table, linear_clamp, shaded);
             if AIRGLOW {
                 behind += air.ground_albedo / PI * glow.ground_irradiance;
             }
             if MOONLIGHT {
                 let nu_moon = clamp(dot(direction, moon_view.sun), -1.0, 1.0);
-                behind += ground_radiance(air, moon_view, nu_moon, distance_m, transmittance_table, irradiance_table, linear_clamp);
+                behind += ground_radiance(air, moon_view, nu_moon, distance_m, transmittance_table, irradiance_table, linear_clamp, shaded);
             }
             even += left * behind;
         }
@@ -250,6 +274,10 @@ fn is_even_run(mu_first: f32, mu_last: f32, length: f32) -> bool {
     let horizon_mu = cos(edge_zenith_angle(air.radius_m, view.altitude_m));
     let near = min(abs(mu_first - horizon_mu), abs(mu_last - horizon_mu));
     let one_side = (mu_first < horizon_mu) == (mu_last < horizon_mu);
+    if CLOUDS && mu_first < horizon_mu {
+        // The ground has shadows on it.
+        return false;
+    }
     let inside = mu_first < horizon_mu || view.altitude_m < 0.2 * air.top_m;
     let change = abs(mu_first - mu_last);
     return one_side && inside && length < EVEN_ANGLE && change < EVEN_SHARE * near && near > 2.0 * camera.pixel_angle;
@@ -305,7 +333,13 @@ fn sky(@builtin(global_invocation_id) id: vec3u) {
             } else {
                 light = light_towards(sight.direction, dot(sight.direction, view.up), nu);
             }
-            value = vec4f(radiance_of(light, nu, disc), 1.0 + angle_if_near(sight.direction, glaring));
+            var seen = radiance_of(light, nu, disc);
+            if CLOUDS {
+                let at = (vec2f(vec2u(first + k, id.y)) + 0.5) * cloud_frame.fineness / vec2f(textureDimensions(cloud_table));
+                let clouds = textureSampleLevel(cloud_table, linear_clamp, at, 0.0);
+                seen = max(clouds.a * seen + clouds.rgb, vec3f(0.0));
+            }
+            value = vec4f(seen, 1.0 + angle_if_near(sight.direction, glaring));
         }
         let i = id.y * tile.size_px.x + first + k;
         if PICTURE {

@@ -21,6 +21,8 @@ override HAZE: bool = true;
 
 // Angle from the horizon, radians.
 const LONG_RAYS = 0.05;
+// Rays to the ground that are no longer see little of it.
+const SHORT_M = 5e4;
 
 @compute @workgroup_size(8, 8)
 fn sky_view(@builtin(global_invocation_id) id: vec3u) {
@@ -36,7 +38,7 @@ fn sky_view(@builtin(global_invocation_id) id: vec3u) {
     var light: Scattered;
     if entry.length_m > 0.0 {
         // Long rays near the horizon see the light change most.
-        let steps = select(1u, 2u, !ray.ground && horizon - ray.zenith_angle < LONG_RAYS) * observer.steps;
+        let steps = select(1u, 2u, abs(horizon - ray.zenith_angle) < LONG_RAYS && (!ray.ground || ray.distance_m > SHORT_M)) * observer.steps;
         let march = March(true, MULTIPLE, HAZE, false, steps, 4u, 0u);
         light = scatter_along(air, entry, transmittance_table, source_table, linear_clamp, march);
     }

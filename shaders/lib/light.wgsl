@@ -49,6 +49,15 @@ fn sun_disc(view: View, direction: vec3f) -> vec3f {
     return disc_radiance(view, view.sun_angular_radius, angle_between(direction, view.sun));
 }
 
+// What clouds leave of the light on a place of the ground: of the sun's, which comes straight or scattered, and of the
+// sky's.
+struct Shaded {
+    sun: f32,
+    sky: f32,
+}
+
+const UNSHADED = Shaded(1.0, 1.0);
+
 // Radiance of the ground where the ray meets it, before the air in front: ρ/π (E_sun + E_sky).
 fn ground_radiance(
     air: Air,
@@ -58,10 +67,11 @@ fn ground_radiance(
     transmittance_table: texture_2d<f32>,
     irradiance_table: texture_2d<f32>,
     linear_clamp: sampler,
+    shaded: Shaded,
 ) -> vec3f {
     let mu_s = cosine_after(air.radius_m, view.altitude_m, 0.0, view.mu_s, nu, distance_m);
     let x = unit_to_coordinate(sun_cosine_unit(mu_s), textureDimensions(irradiance_table).x);
     let sky = light_from_table(textureSampleLevel(irradiance_table, linear_clamp, vec2f(x, 0.5), 0.0).rgb);
     let sun = max(mu_s, 0.0) * transmittance_to_space(air, transmittance_table, linear_clamp, 0.0, mu_s);
-    return view.sun_irradiance * air.ground_albedo / PI * (sun + sky);
+    return view.sun_irradiance * air.ground_albedo / PI * (shaded.sun * sun + shaded.sky * sky);
 }

@@ -40,7 +40,6 @@ pub(crate) struct CloudNoise {
     disk: Option<DiskCache>,
 }
 
-#[cfg_attr(not(test), expect(dead_code, reason = "the march through clouds reads them"))]
 impl CloudNoise {
     pub(crate) const fn new(disk: Option<DiskCache>) -> Self {
         Self {

@@ -2,7 +2,7 @@
 
 use crate::{
     camera::CameraUniform,
-    cloud_noise::CloudNoise,
+    cloudscape::{CloudLight, CloudPasses, Cloudscape},
     cpu::airglow::{NightLight, night_light},
     error::Error,
     gpu::Gpu,
@@ -18,7 +18,7 @@ use crate::{
         exposure::{EXPOSURE_BYTES, ExposurePass, meter_size},
         multi_scattering::{MultiScattering, MultiScatteringPass, Wanted},
         probe::{Probe, ProbeInputs, Seen, Sight},
-        sky::{Sky, SkyInputs, SkyTo},
+        sky::{CloudInputs, Sky, SkyInputs, SkyTo},
         sky_view::SkyView,
         stars::{StarsInputs, StarsOut, StarsPass},
         tone::{Tone, ToneInputs},
@@ -27,7 +27,7 @@ use crate::{
     renderer::RendererSettings,
     screen::{PICTURE_BYTES, RADIANCE_BYTES, Screen},
     sunlight::{direct_normal, moon_direct_normal},
-    uniforms::{AirUniform, Part, Standpoint, TileUniform, ToneUniform, night::AirglowUniform},
+    uniforms::{AirUniform, Part, Standpoint, TileUniform, ToneUniform, clouds, night::AirglowUniform},
 };
 use glam::UVec2;
 use std::{cell::OnceCell, sync::Arc};
@@ -47,8 +47,7 @@ pub(crate) struct Engine {
     exposure: ExposurePass,
     tone: Tone,
     probe: Probe,
-    #[expect(dead_code, reason = "the march through clouds reads it")]
-    cloud_noise: CloudNoise,
+    clouds: CloudPasses,
     screen: Screen,
     night_light: Memo<NightLight>,
     pub(crate) generation: u64,
@@ -73,10 +72,17 @@ pub(crate) struct Prepared {
     observer: Part,
     sky_view: Option<Arc<Table>>,
     stars: Option<StarsOut>,
+    clouds: Option<Cloudscape>,
     exposure: Arc<wgpu::Buffer>,
+    grain: u32,
     /// The device that holds it.
     pub(crate) generation: u64,
 }
+
+/// Pixels to the side of one ray through the clouds, in a preview.
+const PREVIEW_GRAIN: u32 = 4;
+/// Of a ray through the clouds, in pixels that read tables.
+const CLOUD_WORK: u32 = 48;
 
 impl Engine {
     /// `generation` tells this device from those before it.
@@ -98,9 +104,10 @@ impl Engine {
                 ExposurePass::new(&gpu),
                 Tone::new(),
                 Probe::new(),
+                CloudPasses::new(&gpu, disk_cache),
             ))
         })?;
-        let (transmittance, multi_scattering, sky_view, stars, exposure, tone, probe) = passes;
+        let (transmittance, multi_scattering, sky_view, stars, exposure, tone, probe, clouds) = passes;
         Ok(Self {
             transmittance,
             multi_scattering,
@@ -111,7 +118,7 @@ impl Engine {
             exposure,
             tone,
             probe,
-            cloud_noise: CloudNoise::new(disk_cache),
+            clouds,
             screen: Screen::default(),
             night_light: Memo::new(8),
             generation,
@@ -146,6 +153,11 @@ impl Engine {
         let scene = &*order.scene;
         let gpu = &self.gpu;
         gpu.guarded(|| {
+            let cloud_sky = clouds::Sky::new(scene);
+            let textures = cloud_sky
+                .as_ref()
+                .map(|sky| self.clouds.textures(gpu, sky.clouds, &order.assets))
+                .transpose()?;
             let mut recorder = Recorder::new(gpu);
             let passes = (&mut self.transmittance, &mut self.multi_scattering);
             let tables = Self::tables(passes, &mut recorder, scene, order.quality);
@@ -176,13 +188,44 @@ impl Engine {
                     out: night.stars,
                 }
             });
+            let clouds = cloud_sky.zip(textures).map(|(sky, textures)| {
+                let by_moon = night
+                    .moon
+                    .filter(|moon| moon.counts > 0.0 && tables.stand.is_night());
+                let light = by_moon.zip(lights.moon_view()).map_or(
+                    CloudLight {
+                        stand: tables.stand,
+                        view: lights.view(false),
+                    },
+                    |(moon, view)| CloudLight {
+                        stand: moon.stand(&tables.stand),
+                        view,
+                    },
+                );
+                self.clouds.scape(
+                    &mut recorder,
+                    scene,
+                    &tables,
+                    textures,
+                    &sky,
+                    light,
+                    order.quality,
+                )
+            });
+            let grain = match order.quality {
+                Quality::Preview => PREVIEW_GRAIN,
+                Quality::Final => 1,
+            };
             let exposure = match scene.display.exposure {
                 Exposure::Auto { compensation_ev } if order.output == Output::Display => {
                     // The meter looks into neither sun nor moon, and sees no stars.
                     let small = meter_size(size_px);
                     let camera = Part::new(&CameraUniform::new(&scene.camera, small));
                     let parts = [lights.view(true), &camera, &observer];
-                    let inputs = sky_inputs(&tables, &lights, true, parts, sky_view.as_deref());
+                    let inputs = SkyInputs {
+                        clouds: clouds.as_ref().map(|scape| CloudInputs { scape, grain: 1 }),
+                        ..sky_inputs(&tables, &lights, true, parts, sky_view.as_deref())
+                    };
                     let compensation = crate::uniforms::narrow(compensation_ev);
                     self.exposure
                         .run(&mut recorder, &mut self.sky, inputs, small, compensation)
@@ -201,7 +244,9 @@ impl Engine {
                     observer,
                     sky_view,
                     stars,
+                    clouds,
                     exposure,
+                    grain,
                     generation: self.generation,
                 },
                 times,
@@ -326,12 +371,17 @@ impl Engine {
 impl Prepared {
     fn sky_inputs(&self) -> SkyInputs<'_> {
         let parts = [self.lights.view(false), &self.camera_part, &self.observer];
-        sky_inputs(&self.tables, &self.lights, false, parts, self.sky_view.as_deref())
+        let grain = self.grain;
+        SkyInputs {
+            clouds: self.clouds.as_ref().map(|scape| CloudInputs { scape, grain }),
+            ..sky_inputs(&self.tables, &self.lights, false, parts, self.sky_view.as_deref())
+        }
     }
 
     /// About how many times the work of a pixel that reads tables a pixel takes.
     pub(crate) fn work_per_pixel(&self) -> u32 {
-        self.tables.plan.work_per_pixel()
+        let clouds = if self.clouds.is_some() { CLOUD_WORK } else { 0 };
+        self.tables.plan.work_per_pixel() + clouds / (self.grain * self.grain)
     }
 }
 
@@ -354,6 +404,7 @@ fn sky_inputs<'a>(
         source: &tables.multi_scattering.source,
         airglow: lights.airglow(),
         moon: lights.moon(metered),
+        clouds: None,
     }
 }
 

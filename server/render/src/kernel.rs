@@ -20,7 +20,6 @@ pub(crate) enum Bind<'a> {
     Buffer(&'a wgpu::Buffer),
     Table(&'a wgpu::TextureView),
     LinearClamp,
-    #[expect(dead_code, reason = "the march through clouds binds it")]
     LinearRepeat,
 }
 

@@ -6,6 +6,7 @@
 mod camera;
 mod catalogue;
 mod cloud_noise;
+mod cloudscape;
 mod colour;
 mod cpu;
 mod engine;

@@ -82,6 +82,11 @@ impl Lights {
         if metered { &self.metered_view } else { &self.view }
     }
 
+    /// The moon in the sun's place.
+    pub(crate) fn moon_view(&self) -> Option<&Part> {
+        self.moon.as_ref().map(|moon| &moon.view)
+    }
+
     pub(crate) const fn airglow(&self) -> &Part {
         &self.airglow
     }

@@ -10,7 +10,6 @@ pub(crate) struct Shader {
 
 /// What stands at a binding.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[expect(dead_code, reason = "the march through clouds binds volumes")]
 pub(crate) enum Kind {
     Uniform,
     Read,

@@ -1,5 +1,6 @@
 //! From the scene, in user units, to the structures that the shaders read. All conversion stands here.
 
+pub(crate) mod clouds;
 pub(crate) mod night;
 
 use crate::{camera::CameraUniform, colour, lights::Glare, method::Steps};
@@ -144,6 +145,11 @@ impl Standpoint {
             up: DVec3::from_array(observer.up),
             sun: DVec3::from_array(scene.sun_direction()),
         }
+    }
+
+    /// True where the sun lights no cloud over the observer: 6° below the horizon.
+    pub(crate) fn is_night(&self) -> bool {
+        self.up.dot(self.sun) < -0.1
     }
 
     pub(crate) fn observer(&self, steps: Steps) -> ObserverUniform {

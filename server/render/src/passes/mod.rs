@@ -1,10 +1,13 @@
 //! The passes. Each keeps its outputs until what they were made from changes: the bytes of the uniforms it binds, and
 //! the outputs it reads.
 
+pub(crate) mod aerial;
 pub(crate) mod cloud_curl;
 pub(crate) mod cloud_detail;
+pub(crate) mod cloud_shadow;
 pub(crate) mod cloud_shape;
 pub(crate) mod cloud_sheet;
+pub(crate) mod cloud_view;
 pub(crate) mod cloud_weather;
 pub(crate) mod exposure;
 pub(crate) mod multi_scattering;

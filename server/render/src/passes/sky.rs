@@ -2,15 +2,21 @@
 
 use super::{
     Table,
+    cloud_view::CloudView,
     tone::{ToneInputs, curve_code},
 };
 use crate::{
+    cloudscape::Cloudscape,
     frame_job::RUN,
     kernel::{Bind, Recorder, Variants},
     memo::Fingerprint,
     method::Plan,
     shader,
-    uniforms::{Part, TileUniform, ToneUniform, night::MoonUniform},
+    uniforms::{
+        Part, TileUniform, ToneUniform,
+        clouds::{CloudFrameUniform, ShadeUniform},
+        night::MoonUniform,
+    },
 };
 use welkin_scene::Method;
 
@@ -24,6 +30,7 @@ pub(crate) enum SkyTo<'a> {
 
 pub(crate) struct Sky {
     kernels: Variants,
+    clouds: CloudView,
 }
 
 /// What the pass reads.
@@ -41,6 +48,15 @@ pub(crate) struct SkyInputs<'a> {
     pub(crate) source: &'a Table,
     pub(crate) airglow: &'a Part,
     pub(crate) moon: Option<MoonInputs<'a>>,
+    pub(crate) clouds: Option<CloudInputs<'a>>,
+}
+
+/// The clouds as the pass reads them.
+#[derive(Clone, Copy)]
+pub(crate) struct CloudInputs<'a> {
+    pub(crate) scape: &'a Cloudscape,
+    /// Pixels to the side of one ray through them.
+    pub(crate) grain: u32,
 }
 
 /// The moon as the pass reads it.
@@ -68,7 +84,8 @@ impl SkyInputs<'_> {
         let moon = self
             .moon
             .map(|m| (m.moon, m.view, m.lights, m.sky_view.map(|table| table.made_from)));
-        Fingerprint::of(("sky", self.plan, parts, tables, self.airglow, moon))
+        let clouds = self.clouds.map(|c| (c.scape.fingerprint(), c.grain));
+        Fingerprint::of(("sky", self.plan, parts, tables, self.airglow, moon, clouds))
     }
 }
 
@@ -76,6 +93,7 @@ impl Sky {
     pub(crate) fn new() -> Self {
         Self {
             kernels: Variants::new(&shader::SKY),
+            clouds: CloudView::new(),
         }
     }
 
@@ -101,6 +119,19 @@ impl Sky {
             }
         };
         let settings = settings.upload(gpu, "tone");
+        let projection = inputs.plan.projection;
+        let clouds = inputs.clouds.map(|c| {
+            let camera = (inputs.camera, projection);
+            self.clouds.run(recorder, c.scape, camera, tile, c.grain)
+        });
+        let (shade, cloud_frame) = inputs.clouds.map_or_else(
+            || (Part::new(&ShadeUniform::default()), CloudFrameUniform::default()),
+            |c| (c.scape.shade.clone(), c.scape.frame(c.grain)),
+        );
+        let (shade, cloud_frame) = (
+            shade.upload(gpu, "shade"),
+            Part::new(&cloud_frame).upload(gpu, "clouds"),
+        );
         let air = inputs.air.upload(gpu, "air");
         let view = inputs.view.upload(gpu, "view");
         let camera = inputs.camera.upload(gpu, "camera");
@@ -136,14 +167,27 @@ impl Sky {
             Bind::Buffer(&settings),
             Bind::Buffer(exposure),
             Bind::Buffer(picture),
+            Bind::Table(
+                clouds
+                    .as_ref()
+                    .map_or(&inputs.transmittance.view, |table| &table.view),
+            ),
+            Bind::Buffer(&shade),
+            Bind::Table(
+                inputs
+                    .clouds
+                    .map_or(&inputs.source.view, |c| &c.scape.shadow.view),
+            ),
+            Bind::Buffer(&cloud_frame),
         ];
         let flag = |on: bool| f64::from(u8::from(on));
         let mut constants = vec![
             ("METHOD", inputs.plan.method_code()),
-            ("PROJECTION", f64::from(inputs.plan.projection)),
+            ("PROJECTION", f64::from(projection)),
             ("AIRGLOW", flag(inputs.plan.airglow)),
             ("MOON", flag(inputs.moon.is_some())),
             ("MOONLIGHT", flag(moon_sky_view.is_some())),
+            ("CLOUDS", flag(clouds.is_some())),
         ];
         // Moonlight and rays of their own change from pixel to pixel.
         let span = if inputs.plan.method == Method::Lut && moon_sky_view.is_none() {

@@ -18,6 +18,20 @@ pub enum WeatherMap {
     Blend(BlendMap),
 }
 
+impl WeatherMap {
+    /// The two maps between which the weather stands, and the second one's share; a map that is no blend is both.
+    #[must_use]
+    pub fn blended(&self) -> (PlainMap, PlainMap, f64) {
+        let map = match self {
+            Self::Blend(blend) => return (blend.from.clone(), blend.to.clone(), blend.share),
+            Self::Procedural(map) => PlainMap::Procedural(map.clone()),
+            Self::Asset(map) => PlainMap::Asset(map.clone()),
+            Self::Uniform(map) => PlainMap::Uniform(map.clone()),
+        };
+        (map.clone(), map, 0.0)
+    }
+}
+
 impl Default for WeatherMap {
     fn default() -> Self {
         Self::Procedural(ProceduralMap::default())

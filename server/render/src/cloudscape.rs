@@ -1,0 +1,260 @@
+//! What stands ready before a frame's clouds are marched through: noise and weather, the air in front of them, their
+//! shadows.
+
+use crate::{
+    cloud_noise::CloudNoise,
+    engine::Tables,
+    error::Error,
+    gpu::{Gpu, Shape},
+    kernel::{Bind, Recorder},
+    memo::{Fingerprint, Memo},
+    noise_cache::DiskCache,
+    passes::{
+        Table,
+        aerial::{Aerial, AerialVolumes},
+        cloud_shadow::CloudShadow,
+        cloud_shape::ShapeFrequencies,
+        multi_scattering::MultiScattering,
+    },
+    shader::Texel,
+    uniforms::{
+        Part, Standpoint,
+        clouds::{CloudFrameUniform, ShadowUniform, Sky},
+    },
+};
+use glam::Vec3;
+use std::sync::Arc;
+use welkin_scene::{
+    Quality, Scene,
+    assets::SceneAssets,
+    clouds::{Clouds, PlainMap},
+};
+
+/// The passes of the clouds.
+pub(crate) struct CloudPasses {
+    noise: CloudNoise,
+    aerial: Aerial,
+    shadow: CloudShadow,
+    pictures: Memo<Table>,
+}
+
+/// Noise and weather of one scene.
+pub(crate) struct CloudTextures {
+    shape: Arc<Table>,
+    detail: Arc<Table>,
+    curl: Arc<Table>,
+    first_weather: Arc<Table>,
+    second_weather: Arc<Table>,
+    sheet: Arc<Table>,
+}
+
+/// All that the march through a scene's clouds reads.
+pub(crate) struct Cloudscape {
+    pub(crate) clouds: Part,
+    pub(crate) air: Part,
+    /// The light that counts, in the sun's place.
+    pub(crate) view: Part,
+    pub(crate) shade: Part,
+    pub(crate) observer: Part,
+    pub(crate) textures: CloudTextures,
+    pub(crate) transmittance: Arc<Table>,
+    multi_scattering: Arc<MultiScattering>,
+    pub(crate) aerial: Arc<AerialVolumes>,
+    pub(crate) shadow: Arc<Table>,
+    place_m: Vec3,
+    light: Vec3,
+    made_from: Fingerprint,
+}
+
+impl CloudTextures {
+    pub(crate) fn fingerprint(&self) -> Fingerprint {
+        let all = [
+            &self.shape,
+            &self.detail,
+            &self.curl,
+            &self.first_weather,
+            &self.second_weather,
+            &self.sheet,
+        ];
+        Fingerprint::of(all.map(|table| table.made_from))
+    }
+
+    /// The first bindings of every shader that asks where there is cloud.
+    pub(crate) fn binds<'a>(&'a self, clouds: &'a wgpu::Buffer) -> Vec<Bind<'a>> {
+        vec![
+            Bind::Buffer(clouds),
+            Bind::LinearRepeat,
+            Bind::Table(&self.shape.view),
+            Bind::Table(&self.detail.view),
+            Bind::Table(&self.curl.view),
+            Bind::Table(&self.first_weather.view),
+            Bind::Table(&self.second_weather.view),
+            Bind::Table(&self.sheet.view),
+        ]
+    }
+}
+
+impl Cloudscape {
+    pub(crate) fn irradiance(&self) -> &wgpu::TextureView {
+        &self.multi_scattering.irradiance.view
+    }
+
+    /// For a table of one ray to `grain` pixels' side.
+    pub(crate) fn frame(&self, grain: u32) -> CloudFrameUniform {
+        CloudFrameUniform {
+            place_m: self.place_m,
+            fineness: 1.0 / crate::uniforms::narrow(f64::from(grain)),
+            light: self.light,
+        }
+    }
+
+    pub(crate) const fn fingerprint(&self) -> Fingerprint {
+        self.made_from
+    }
+}
+
+/// The light on the clouds.
+pub(crate) struct CloudLight<'a> {
+    pub(crate) stand: Standpoint,
+    pub(crate) view: &'a Part,
+}
+
+/// Steps of a shadow's ray through a band.
+const fn shadow_steps(quality: Quality) -> u32 {
+    match quality {
+        Quality::Preview => 8,
+        Quality::Final => 24,
+    }
+}
+
+/// How fine the steps are against those that the scene asks for.
+const fn fineness(quality: Quality) -> f64 {
+    match quality {
+        Quality::Preview => 0.25,
+        Quality::Final => 1.0,
+    }
+}
+
+impl CloudPasses {
+    pub(crate) fn new(gpu: &Gpu, disk_cache: Option<DiskCache>) -> Self {
+        Self {
+            noise: CloudNoise::new(disk_cache),
+            aerial: Aerial::new(),
+            shadow: CloudShadow::new(gpu),
+            pictures: Memo::new(4),
+        }
+    }
+
+    /// Noise and weather; made, and waited for, where they are not there yet.
+    pub(crate) fn textures(
+        &mut self,
+        gpu: &Gpu,
+        clouds: &Clouds,
+        assets: &SceneAssets,
+    ) -> Result<CloudTextures, Error> {
+        let shape = &clouds.shape;
+        let seed = shape.seed.unwrap_or(clouds.seed);
+        let frequencies = ShapeFrequencies {
+            perlin: shape.perlin_frequency,
+            worley: shape.worley_frequency,
+        };
+        let (first, second, _) = clouds.weather_map.blended();
+        Ok(CloudTextures {
+            shape: self.noise.shape(gpu, seed, frequencies)?,
+            detail: self.noise.detail(gpu, seed, shape.detail_frequency)?,
+            curl: self.noise.curl(gpu, seed)?,
+            first_weather: self.weather(gpu, &first, clouds.seed, assets)?,
+            second_weather: self.weather(gpu, &second, clouds.seed, assets)?,
+            sheet: self.noise.sheet(gpu, clouds.seed)?,
+        })
+    }
+
+    fn weather(
+        &mut self,
+        gpu: &Gpu,
+        map: &PlainMap,
+        seed: u32,
+        assets: &SceneAssets,
+    ) -> Result<Arc<Table>, Error> {
+        match map {
+            PlainMap::Procedural(map) => self.noise.weather(gpu, map.seed.unwrap_or(seed)),
+            // Nothing is read of it.
+            PlainMap::Uniform(_) => self.noise.curl(gpu, seed),
+            PlainMap::Asset(map) => {
+                let picture = assets
+                    .weather_maps
+                    .get(&map.name)
+                    .ok_or_else(|| Error::Asset(map.name.clone()))?;
+                let made_from = Fingerprint::of(("weather picture", picture.digest));
+                Ok(self.pictures.get_or(made_from, || Table {
+                    view: gpu.holding(
+                        "weather picture",
+                        [picture.width_px, picture.height_px, 1],
+                        Shape::Flat,
+                        Texel::Byte,
+                        &picture.rgba,
+                    ),
+                    made_from,
+                }))
+            }
+        }
+    }
+
+    pub(crate) fn scape(
+        &mut self,
+        recorder: &mut Recorder<'_>,
+        scene: &Scene,
+        tables: &Tables,
+        textures: CloudTextures,
+        sky: &Sky<'_>,
+        light: CloudLight<'_>,
+        quality: Quality,
+    ) -> Cloudscape {
+        let clouds = Part::new(&sky.uniform(scene, fineness(quality)));
+        let shade = sky.shade(&light.stand, scene.camera.position_m);
+        let casts = scene.clouds.as_ref().is_some_and(|clouds| clouds.shadows);
+        let shade = Part::new(&shade);
+        let reads = (&*tables.transmittance, &tables.multi_scattering.source);
+        let aerial = self
+            .aerial
+            .run(recorder, &tables.air, &light.stand, reads, tables.plan, quality);
+        let towards = ShadowUniform {
+            light: light.stand.sun.as_vec3(),
+            steps: if casts { shadow_steps(quality) } else { 1 },
+        };
+        let shadow = self.shadow.run(
+            recorder,
+            &textures,
+            (&clouds, &shade),
+            towards,
+            sky.shade_count(),
+            quality,
+        );
+        let observer = Part::new(&light.stand.observer(tables.plan.pixel_steps()));
+        let made_from = Fingerprint::of((
+            "clouds",
+            (&clouds, &tables.air, light.view, &shade, &observer),
+            textures.fingerprint(),
+            (
+                tables.transmittance.made_from,
+                tables.multi_scattering.irradiance.made_from,
+            ),
+            (aerial.made_from, shadow.made_from),
+        ));
+        Cloudscape {
+            clouds,
+            air: tables.air.clone(),
+            view: light.view.clone(),
+            shade,
+            observer,
+            textures,
+            transmittance: Arc::clone(&tables.transmittance),
+            multi_scattering: Arc::clone(&tables.multi_scattering),
+            aerial,
+            shadow,
+            place_m: crate::uniforms::narrow3(scene.camera.position_m),
+            light: light.stand.sun.as_vec3(),
+            made_from,
+        }
+    }
+}

@@ -1,0 +1,67 @@
+//! Optical depth of each band and sheet of clouds towards the light.
+
+use super::Table;
+use crate::{
+    cloudscape::CloudTextures,
+    gpu::{Gpu, Shape},
+    kernel::{Bind, Kernel, Recorder},
+    memo::{Fingerprint, Memo},
+    shader::{self, Texel},
+    uniforms::{Part, clouds::ShadowUniform},
+};
+use std::sync::Arc;
+use welkin_scene::Quality;
+
+pub(crate) struct CloudShadow {
+    kernel: Kernel,
+    memo: Memo<Table>,
+}
+
+/// Side of a map, texels.
+const fn side(quality: Quality) -> u32 {
+    match quality {
+        Quality::Preview => 128,
+        Quality::Final => 512,
+    }
+}
+
+impl CloudShadow {
+    pub(crate) fn new(gpu: &Gpu) -> Self {
+        Self {
+            kernel: Kernel::new(gpu, &shader::CLOUD_SHADOW),
+            memo: Memo::new(4),
+        }
+    }
+
+    /// `count` maps, one after the other in height.
+    pub(crate) fn run(
+        &mut self,
+        recorder: &mut Recorder<'_>,
+        textures: &CloudTextures,
+        (clouds, shade): (&Part, &Part),
+        light: ShadowUniform,
+        count: u32,
+        quality: Quality,
+    ) -> Arc<Table> {
+        let light = Part::new(&light);
+        let made_from = Fingerprint::of((
+            "cloud_shadow",
+            clouds,
+            shade,
+            &light,
+            textures.fingerprint(),
+            quality,
+        ));
+        self.memo.get_or(made_from, || {
+            let gpu = recorder.gpu;
+            let side = side(quality);
+            let view = gpu.written("cloud_shadow", [side, side, count], Shape::Layers, Texel::Float);
+            let (clouds, shade) = (clouds.upload(gpu, "clouds"), shade.upload(gpu, "shade"));
+            let light = light.upload(gpu, "shadow");
+            let mut binds = textures.binds(&clouds);
+            binds.extend([Bind::Buffer(&shade), Bind::Buffer(&light), Bind::Table(&view)]);
+            recorder.dispatch(&self.kernel, &binds, [side, side, count]);
+            Table { view, made_from }
+        })
+    }
+}

@@ -1,0 +1,72 @@
+//! The clouds before every pixel of a tile.
+
+use super::Table;
+use crate::{
+    cloudscape::Cloudscape,
+    gpu::Shape,
+    kernel::{Bind, Recorder, Variants},
+    memo::Fingerprint,
+    shader::{self, Texel},
+    uniforms::{Part, TileUniform, clouds::CloudTileUniform},
+};
+
+pub(crate) struct CloudView {
+    kernels: Variants,
+}
+
+impl CloudView {
+    pub(crate) const fn new() -> Self {
+        Self {
+            kernels: Variants::new(&shader::CLOUD_VIEW),
+        }
+    }
+
+    /// A table of the tile's size over `grain`, rounded up: what to add in R, G and B, and what comes through in alpha.
+    pub(crate) fn run(
+        &mut self,
+        recorder: &mut Recorder<'_>,
+        scape: &Cloudscape,
+        (camera, projection): (&Part, u32),
+        tile: TileUniform,
+        grain: u32,
+    ) -> Table {
+        let gpu = recorder.gpu;
+        let size_px = tile.size_px.map(|side| side.div_ceil(grain));
+        let view = gpu.written("cloud_view", [size_px.x, size_px.y, 1], Shape::Flat, Texel::Float);
+        let clouds = scape.clouds.upload(gpu, "clouds");
+        let (air, light) = (scape.air.upload(gpu, "air"), scape.view.upload(gpu, "view"));
+        let (shade, observer) = (
+            scape.shade.upload(gpu, "shade"),
+            scape.observer.upload(gpu, "observer"),
+        );
+        let place = Part::new(&CloudTileUniform {
+            origin_px: tile.origin_px,
+            size_px,
+            grain,
+        });
+        let (camera, place) = (camera.upload(gpu, "camera"), place.upload(gpu, "tile"));
+        let mut binds = scape.textures.binds(&clouds);
+        binds.extend([
+            Bind::Buffer(&air),
+            Bind::Buffer(&light),
+            Bind::Buffer(&shade),
+            Bind::LinearClamp,
+            Bind::Table(&scape.transmittance.view),
+            Bind::Table(scape.irradiance()),
+            Bind::Table(&scape.aerial.rayleigh),
+            Bind::Table(&scape.aerial.mie),
+            Bind::Table(&scape.aerial.multiple),
+            Bind::Table(&scape.shadow.view),
+            Bind::Buffer(&camera),
+            Bind::Buffer(&place),
+            Bind::Buffer(&observer),
+            Bind::Table(&view),
+        ]);
+        let kernel = self.kernels.get(gpu, &[("PROJECTION", f64::from(projection))]);
+        recorder.dispatch(kernel, &binds, [size_px.x, size_px.y, 1]);
+        Table {
+            view,
+            made_from: Fingerprint::of("one tile"),
+        }
+    }
+}

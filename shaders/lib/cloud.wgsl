@@ -1,0 +1,250 @@
+// Where there is cloud, and how dense: weather, height profile and noise (Schneider 2015, 2017). Whoever imports from here
+// binds these first.
+
+// A layer of cloud with a thickness.
+struct CloudLayer {
+    @align(16) base_m: f32,
+    inverse_thickness_per_m: f32,
+    // Of weather; negative where the map decides.
+    cloud_type: f32,
+    coverage: f32,
+    extinction_per_m: f32,
+    anvil: f32,
+}
+
+// Layers that overlap are marched through as one; bands do not touch.
+struct CloudBand {
+    @align(16) base_m: f32,
+    top_m: f32,
+    first: u32,
+    count: u32,
+    // Of the thinnest layer.
+    thickness_m: f32,
+    extinction_per_m: f32,
+}
+
+// A layer that is thin against all distances.
+struct CloudSheet {
+    // Rotates and scales the way along the sphere, so that the wind blows along x.
+    turn: vec2f,
+    drift: vec2f,
+    height_m: f32,
+    coverage: f32,
+    // Vertical, where it is densest.
+    optical_depth: f32,
+    // 0 cirrus, 1 cells, 2 veil.
+    channel: u32,
+}
+
+// Where weather comes from.
+struct WeatherSource {
+    // Coverage, type and rain of weather that is the same everywhere.
+    even: vec3f,
+    // 0 the same everywhere; 1 coverage, type, rain; 2 low, high, height, density.
+    convention: u32,
+    drift: vec2f,
+    second_drift: vec2f,
+    inverse_extent_per_m: f32,
+    // 1 to look twice, so that no tile is seen.
+    twice: f32,
+}
+
+struct Clouds {
+    layers: array<CloudLayer, 8>,
+    bands: array<CloudBand, 8>,
+    sheets: array<CloudSheet, 8>,
+    weather: array<WeatherSource, 2>,
+    gradients: array<vec4f, 3>,
+    // The observer's place in the scene.
+    place_m: vec3f,
+    radius_m: f32,
+    base_drift: vec3f,
+    base_inverse_scale_per_m: f32,
+    detail_drift: vec3f,
+    detail_inverse_scale_per_m: f32,
+    // How far a layer's top is ahead of its base.
+    shear_m: vec2f,
+    curl_inverse_scale_per_m: f32,
+    curl_m: f32,
+    band_count: u32,
+    sheet_count: u32,
+    // Of the second weather source.
+    weather_share: f32,
+    low_least: f32,
+    low_inverse_range: f32,
+    erosion: f32,
+    precipitation: f32,
+    // Steps to a layer, over 128.
+    fineness: f32,
+    // Single scattering albedo times the cloud's own colour.
+    albedo: vec3f,
+    // Mean cosine of the phase function.
+    asymmetry: f32,
+    sun_colour: vec3f,
+    // Of the phase function: the forward lobe, the other lobe, and its share.
+    forward: f32,
+    other: f32,
+    other_share: f32,
+    // Draine's α of the other lobe; 0 for that of Henyey and Greenstein.
+    alpha: f32,
+    sun_factor: f32,
+    ambient_factor: f32,
+    powder: f32,
+    octaves: u32,
+    light_steps: u32,
+    haze: f32,
+}
+
+@group(0) @binding(0) var<uniform> clouds: Clouds;
+@group(0) @binding(1) var linear_repeat: sampler;
+@group(0) @binding(2) var shape_volume: texture_3d<f32>;
+@group(0) @binding(3) var detail_volume: texture_3d<f32>;
+@group(0) @binding(4) var curl_texture: texture_2d<f32>;
+@group(0) @binding(5) var first_weather: texture_2d<f32>;
+@group(0) @binding(6) var second_weather: texture_2d<f32>;
+@group(0) @binding(7) var sheet_texture: texture_2d<f32>;
+
+// The way along the sphere from the scene's origin to below a place: R times the angle, whose sine is s/|p|, by the series
+// of asin (within 1e-3 up to 50°), so that from orbit nothing is stretched.
+fn along_sphere(p: vec3f, altitude_m: f32) -> vec2f {
+    let r = clouds.radius_m + altitude_m;
+    let x2 = min(dot(p.xy, p.xy) / (r * r), 1.0);
+    return p.xy * (clouds.radius_m / r) * (1.0 + x2 * (1.0 / 6.0 + x2 * (3.0 / 40.0 + x2 * (15.0 / 336.0 + x2 * 0.09))));
+}
+
+struct Weather {
+    coverage: f32,
+    cloud_type: f32,
+    rain: f32,
+    // The clouds' greatest height as a share of the layer.
+    height: f32,
+    // 1 where coverage is spread evenly over 0 to 1, so that a threshold cuts off a known share.
+    spread: f32,
+}
+
+// The second look at the map is turned and larger, by factors without a common measure.
+const SECOND_LOOK = mat2x2f(0.2867, 0.1513, -0.1513, 0.2867);
+const SECOND_WEIGHT = 0.35;
+
+// P(a + k b < v) of a and b that are even over 0..1: the sum of both looks is spread evenly again.
+fn share_below(v: vec3f) -> vec3f {
+    let k = SECOND_WEIGHT;
+    let left = 1.0 + k - v;
+    return select(select(1.0 - left * left / (2.0 * k), v - 0.5 * k, v < vec3f(1.0)), v * v / (2.0 * k), v < vec3f(k));
+}
+
+fn weather_of(source: WeatherSource, map: texture_2d<f32>, along_m: vec2f) -> Weather {
+    if source.convention == 0u {
+        return Weather(source.even.x, source.even.y, source.even.z, 1.0, 0.0);
+    }
+    let place = along_m * source.inverse_extent_per_m;
+    // Pictures have north up and the scene's origin in the middle.
+    let at = select(place, vec2f(place.x, -place.y) + 0.5, source.twice == 0.0);
+    let first = textureSampleLevel(map, linear_repeat, at - source.drift, 0.0);
+    if source.convention == 2u {
+        return Weather(max(first.r, first.g), 0.5 + 0.5 * first.a, 0.0, max(first.b, 0.05), 0.0);
+    }
+    var seen = first.rgb;
+    if source.twice > 0.0 {
+        let second = textureSampleLevel(map, linear_repeat, SECOND_LOOK * at - source.second_drift, 0.0).rgb;
+        seen = share_below(first.rgb + SECOND_WEIGHT * second);
+    }
+    return Weather(seen.r, seen.g, seen.b, 1.0, 1.0);
+}
+
+fn weather_at(along_m: vec2f) -> Weather {
+    let a = weather_of(clouds.weather[0], first_weather, along_m);
+    if clouds.weather_share <= 0.0 {
+        return a;
+    }
+    let b = weather_of(clouds.weather[1], second_weather, along_m);
+    let s = clouds.weather_share;
+    return Weather(mix(a.coverage, b.coverage, s), mix(a.cloud_type, b.cloud_type, s), mix(a.rain, b.rain, s), mix(a.height, b.height, s), mix(a.spread, b.spread, s));
+}
+
+// Trapezium with smooth sides: rises from x to y, falls from z to w.
+fn height_gradient(g: vec4f, h: f32) -> f32 {
+    return smoothstep(g.x, g.y + 1e-4, h) * (1.0 - smoothstep(g.z, g.w + 1e-4, h));
+}
+
+// Between a cloud's core and its rim the strength falls over this share of the weather's range.
+const RIM = 0.5;
+
+// How strongly the weather wants cloud in a layer: 0 for none, 1 in the core. The threshold is moved so that no coverage
+// leaves none and full coverage leaves no gap.
+fn strength_of(layer: CloudLayer, weather: Weather) -> f32 {
+    let spread = (weather.coverage - 1.0 + layer.coverage * (1.0 + RIM)) / RIM;
+    return clamp(mix(weather.coverage * layer.coverage, spread, weather.spread), 0.0, 1.0);
+}
+
+// How much of what could be there is, at a share h of a layer's height, before any noise.
+fn profile(layer: CloudLayer, weather: Weather, strength: f32, h: f32) -> f32 {
+    let t = select(weather.cloud_type, layer.cloud_type, layer.cloud_type >= 0.0);
+    let w = vec3f(clamp(1.0 - 2.0 * t, 0.0, 1.0), 1.0 - 2.0 * abs(t - 0.5), clamp(2.0 * t - 1.0, 0.0, 1.0));
+    // Heaped clouds rise as high as they are strong.
+    let rise = mix(1.0, 0.3 + 0.7 * strength, w.z) * weather.height;
+    let at = h / rise;
+    let full = w.x * height_gradient(clouds.gradients[0], at) + w.y * height_gradient(clouds.gradients[1], at)
+        + w.z * height_gradient(clouds.gradients[2], at);
+    // The anvil spreads under the top.
+    let spread = layer.anvil * height_gradient(vec4f(0.62, 0.8, 0.93, 1.0), h) * step(0.15, strength);
+    return max(full, spread);
+}
+
+// Density at a place of one layer, 0 to 1. `fine` also asks for what the detail noise takes away.
+fn layer_density(layer: CloudLayer, weather: Weather, along_m: vec2f, altitude_m: f32, fine: bool) -> f32 {
+    let h = (altitude_m - layer.base_m) * layer.inverse_thickness_per_m;
+    let strength = strength_of(layer, weather);
+    let wanted = profile(layer, weather, strength, clamp(h, 0.0, 1.0));
+    var density = 0.0;
+    // A loop of one round at most: a software device runs what an `if` leaves out.
+    for (var there = h > 0.0 && h < 1.0 && strength * wanted > 0.0; there; there = false) {
+        let place = vec3f(along_m + clouds.shear_m * h, altitude_m);
+        let noise = textureSampleLevel(shape_volume, linear_repeat, place * clouds.base_inverse_scale_per_m - clouds.base_drift, 0.0);
+        let fbm = dot(noise.gba, vec3f(0.625, 0.25, 0.125));
+        let low = clamp(((noise.r + 1.0 - fbm) / (2.0 - fbm) - clouds.low_least) * clouds.low_inverse_range, 0.0, 1.0);
+        let anvil = layer.anvil * smoothstep(0.55, 0.8, h);
+        let cover = pow(strength, 1.0 - 0.75 * anvil);
+        density = clamp((low * wanted - 1.0 + cover) / max(cover, 1e-3), 0.0, 1.0) * cover;
+        if fine {
+            for (var eroded = density > 0.0 && density < 0.6; eroded; eroded = false) {
+                var at = place;
+                if clouds.curl_m > 0.0 {
+                    let curl = textureSampleLevel(curl_texture, linear_repeat, place.xy * clouds.curl_inverse_scale_per_m, 0.0).rgb;
+                    at += (curl - 0.5) * 4.0 * clouds.curl_m * (1.0 - h);
+                }
+                let detail = textureSampleLevel(detail_volume, linear_repeat, at * clouds.detail_inverse_scale_per_m - clouds.detail_drift, 0.0).a;
+                // Wisps at the base, billows above.
+                let bite = mix(1.0 - detail, detail, clamp(4.0 * h, 0.0, 1.0)) * clouds.erosion;
+                density = clamp((density - bite * (1.0 - density)) / max(1.0 - bite, 1e-3), 0.0, 1.0);
+            }
+        }
+    }
+    return density;
+}
+
+// Extinction coefficient at a place of a band, 1/m.
+fn band_extinction(band: CloudBand, p: vec3f, altitude_m: f32, fine: bool) -> f32 {
+    let along_m = along_sphere(p, altitude_m);
+    let weather = weather_at(along_m);
+    var sum = 0.0;
+    for (var i = band.first; i < band.first + band.count; i++) {
+        let density = layer_density(clouds.layers[i], weather, along_m, altitude_m, fine);
+        // Rain comes from drops that are larger and denser: darker cloud.
+        sum += clouds.layers[i].extinction_per_m * (1.0 + 2.0 * clouds.precipitation * weather.rain) * density;
+    }
+    return sum;
+}
+
+// Vertical optical depth of a sheet.
+fn sheet_optical_depth(sheet: CloudSheet, p: vec3f, altitude_m: f32) -> f32 {
+    let along_m = along_sphere(p, altitude_m);
+    let at = vec2f(dot(along_m, sheet.turn), dot(along_m, vec2f(-sheet.turn.y, sheet.turn.x))) - sheet.drift;
+    let first = textureSampleLevel(sheet_texture, linear_repeat, at, 0.0);
+    let second = textureSampleLevel(sheet_texture, linear_repeat, 0.31 * at + vec2f(0.37, 0.11), 0.0);
+    let values = array<f32, 3>(first.r, first.g, first.b);
+    let wide = array<f32, 3>(second.b, second.b, second.b);
+    let spread = share_below(vec3f(values[sheet.channel] + SECOND_WEIGHT * wide[sheet.channel])).x;
+    let over = clamp((spread - 1.0 + sheet.coverage * 1.2) / 0.6, 0.0, 1.0);
+    return sheet.optical_depth * over * over * (0.6 + 0.4 * first.a);
+}

@@ -1,0 +1,85 @@
+// Shadows of clouds: for each band and sheet a map of its optical depth towards the light, by where the way to the light
+// crosses the band's middle.
+import package::lib::geometry::distance_to_top;
+import package::lib::light::Shaded;
+
+struct CloudShade {
+    // Altitudes of the middles, four to a vector, from below.
+    middles_m: array<vec4f, 4>,
+    // The place on the sphere at the maps' centre.
+    centre_m: vec2f,
+    // Half a map's side.
+    reach_m: f32,
+    count: u32,
+    // Share of the light, straight from its source and after scattering, that on average comes through all of them.
+    direct_left: f32,
+    diffuse_left: f32,
+    // Mean cosine of the clouds' phase function.
+    asymmetry: f32,
+    // Altitude of the lowest base.
+    base_m: f32,
+}
+
+// Texels stand closer by the square towards the centre.
+fn shade_coordinate(shade: CloudShade, along_m: vec2f) -> vec2f {
+    let d = (along_m - shade.centre_m) / shade.reach_m;
+    return 0.5 + 0.5 * sign(d) * sqrt(min(abs(d), vec2f(1.0)));
+}
+
+fn shade_place(shade: CloudShade, coordinate: vec2f) -> vec2f {
+    let u = 2.0 * coordinate - 1.0;
+    return shade.centre_m + shade.reach_m * u * abs(u);
+}
+
+// The way along the sphere to below p, which is near the sphere.
+fn shade_along(radius_m: f32, p: vec3f, altitude_m: f32) -> vec2f {
+    let r = radius_m + altitude_m;
+    let x2 = min(dot(p.xy, p.xy) / (r * r), 1.0);
+    return p.xy * (radius_m / r) * (1.0 + x2 * (1.0 / 6.0 + x2 * (3.0 / 40.0 + x2 * (15.0 / 336.0 + x2 * 0.09))));
+}
+
+// Optical depth towards the light of all bands over a place. `mu` is the light's cosine with the zenith there.
+fn shade_depth(
+    shade: CloudShade,
+    maps: texture_2d_array<f32>,
+    linear_clamp: sampler,
+    radius_m: f32,
+    p: vec3f,
+    altitude_m: f32,
+    light: vec3f,
+    mu: f32,
+) -> f32 {
+    var sum = 0.0;
+    for (var i = 0u; i < shade.count; i++) {
+        let middle_m = shade.middles_m[i / 4u][i % 4u];
+        let over = max(middle_m - altitude_m, 0.0);
+        let way_m = distance_to_top(radius_m, middle_m, min(altitude_m, middle_m), mu);
+        let at = shade_coordinate(shade, shade_along(radius_m, p + way_m * light, middle_m));
+        let depth = textureSampleLevel(maps, linear_clamp, at, i, 0.0).r;
+        sum += select(0.0, depth, over > 0.0);
+    }
+    return sum;
+}
+
+// Of light on a slab's top, at a cosine, the share that leaves below, straight or scattered; both on a level plane. The
+// diffusion limit with Eddington's closure and Marshak's boundaries, as in `lib/cloud_light.wgsl`.
+fn slab_transmission(asymmetry: f32, cosine: f32, optical_depth: f32) -> f32 {
+    let whole = (1.0 - asymmetry) * optical_depth;
+    let mu = max(cosine, 0.02);
+    return (2.0 + 3.0 * mu + (2.0 - 3.0 * mu) * exp(-whole / mu)) / (4.0 + 3.0 * whole);
+}
+
+// What clouds leave of the light on the ground at p.
+fn ground_shaded(
+    shade: CloudShade,
+    maps: texture_2d_array<f32>,
+    linear_clamp: sampler,
+    radius_m: f32,
+    p: vec3f,
+    light: vec3f,
+    mu: f32,
+) -> Shaded {
+    let depth = shade_depth(shade, maps, linear_clamp, radius_m, p, 0.0, light, mu);
+    let cosine = max(mu, 0.03);
+    return Shaded(slab_transmission(shade.asymmetry, cosine, depth * cosine), shade.diffuse_left);
+}
