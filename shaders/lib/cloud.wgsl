@@ -125,6 +125,7 @@ struct Weather {
 // The second look at the map is turned and larger, by factors without a common measure.
 const SECOND_LOOK = mat2x2f(0.2867, 0.1513, -0.1513, 0.2867);
 const SECOND_WEIGHT = 0.35;
+const SYSTEMS = mat2x2f(0.0331, -0.0207, 0.0207, 0.0331);
 
 // P(a + k b < v) of a and b that are even over 0..1: the sum of both looks is spread evenly again.
 fn share_below(v: vec3f) -> vec3f {
@@ -148,6 +149,10 @@ fn weather_of(source: WeatherSource, map: texture_2d<f32>, along_m: vec2f) -> We
     if source.twice > 0.0 {
         let second = textureSampleLevel(map, linear_repeat, SECOND_LOOK * at - source.second_drift, 0.0).rgb;
         seen = share_below(first.rgb + SECOND_WEIGHT * second);
+        // Far from the scene, where only a flight or an orbit leads, weather systems gather what is even about it.
+        let far = smoothstep(1e5, 6e5, length(along_m));
+        let system = textureSampleLevel(map, linear_repeat, SYSTEMS * at, 0.0).rgb;
+        seen = mix(seen, share_below(system + SECOND_WEIGHT * seen), far);
     }
     return Weather(seen.r, seen.g, seen.b, 1.0, 1.0);
 }
@@ -191,6 +196,18 @@ fn profile(layer: CloudLayer, weather: Weather, strength: f32, h: f32) -> f32 {
     return max(full, spread);
 }
 
+// Of the detail noise, at a modifier of 1.
+const BITE = 1.7;
+
+// How far the cover of heaped cloud shrinks from base to top.
+const TAPER = 0.65;
+
+// 1 for cumulus, 0 for flat cloud.
+fn heaped(layer: CloudLayer, weather: Weather) -> f32 {
+    let t = select(weather.cloud_type, layer.cloud_type, layer.cloud_type >= 0.0);
+    return clamp(2.0 * t - 1.0, 0.0, 1.0);
+}
+
 // Density at a place of one layer, 0 to 1. `fine` also asks for what the detail noise takes away.
 fn layer_density(layer: CloudLayer, weather: Weather, along_m: vec2f, altitude_m: f32, fine: bool) -> f32 {
     let h = (altitude_m - layer.base_m) * layer.inverse_thickness_per_m;
@@ -204,19 +221,24 @@ fn layer_density(layer: CloudLayer, weather: Weather, along_m: vec2f, altitude_m
         let fbm = dot(noise.gba, vec3f(0.625, 0.25, 0.125));
         let low = clamp(((noise.r + 1.0 - fbm) / (2.0 - fbm) - clouds.low_least) * clouds.low_inverse_range, 0.0, 1.0);
         let anvil = layer.anvil * smoothstep(0.55, 0.8, h);
-        let cover = pow(strength, 1.0 - 0.75 * anvil);
+        // Heaps narrow upwards into towers; the anvil widens again.
+        let narrowed = strength * (1.0 - heaped(layer, weather) * TAPER * h * h * (1.0 - anvil));
+        let cover = pow(narrowed, 1.0 - 0.75 * anvil);
         density = clamp((low * wanted - 1.0 + cover) / max(cover, 1e-3), 0.0, 1.0) * cover;
         if fine {
-            for (var eroded = density > 0.0 && density < 0.6; eroded; eroded = false) {
+            for (var eroded = density > 0.0 && density < BITE * clouds.erosion + 0.3; eroded; eroded = false) {
                 var at = place;
                 if clouds.curl_m > 0.0 {
                     let curl = textureSampleLevel(curl_texture, linear_repeat, place.xy * clouds.curl_inverse_scale_per_m, 0.0).rgb;
                     at += (curl - 0.5) * 4.0 * clouds.curl_m * (1.0 - h);
                 }
-                let detail = textureSampleLevel(detail_volume, linear_repeat, at * clouds.detail_inverse_scale_per_m - clouds.detail_drift, 0.0).a;
+                let detail_at = at * clouds.detail_inverse_scale_per_m - clouds.detail_drift;
+                let coarse = textureSampleLevel(detail_volume, linear_repeat, detail_at, 0.0).a;
+                let finer = textureSampleLevel(detail_volume, linear_repeat, 3.7 * detail_at, 0.0).a;
+                let detail = smoothstep(0.15, 0.85, 0.6 * coarse + 0.4 * finer);
                 // Wisps at the base, billows above.
-                let bite = mix(1.0 - detail, detail, clamp(4.0 * h, 0.0, 1.0)) * clouds.erosion;
-                density = clamp((density - bite * (1.0 - density)) / max(1.0 - bite, 1e-3), 0.0, 1.0);
+                let bite = mix(detail, 1.0 - detail, clamp(4.0 * h, 0.0, 1.0)) * BITE * clouds.erosion;
+                density = clamp((density - bite) / max(1.0 - bite, 1e-3), 0.0, 1.0);
             }
         }
     }
