@@ -49,8 +49,13 @@ struct CloudRay {
 
 // Nothing is seen through what lets less through.
 const OPAQUE = 0.002;
-// Optical depth to a step in a cloud of the densest kind.
+// Of one band, at the usual fineness.
 const MOST_STEPS = 1400u;
+// After this many empty steps they grow by that factor.
+const EMPTY = 4u;
+const WIDE = 3.0;
+// Over which way clouds fade, where they are asked to.
+const HAZE_M = 3e4;
 // A ray through more air than this sees none of the clouds beyond.
 const FARTHEST_M = 6e5;
 
@@ -142,34 +147,35 @@ fn march_band(band: CloudBand, ray: CloudRay, start_m: f32, stop_m: f32, left_be
     var weight = 0.0;
     let least_m = band.thickness_m / (128.0 * clouds.fineness);
     let growth = 0.5 * 0.0125 / clouds.fineness;
-    var t = start_m + ray.jitter * max(least_m, growth * start_m);
+    // Each step is a cell, looked at somewhere in it; the last one ends where the band does.
+    var t = start_m;
     var empty = 0u;
     let most = u32(f32(MOST_STEPS) * max(clouds.fineness, 0.25));
     for (var k = 0u; k < most && t < stop_m && seen.left * left_before > OPAQUE; k++) {
-        let step_m = max(least_m, growth * t);
-        let h = altitude_after(clouds.radius_m, view.altitude_m, ray.mu, t);
-        let p = place_at(t, ray.direction);
+        let narrow_m = min(max(least_m, growth * t), stop_m - t);
+        let at = t + ray.jitter * narrow_m;
+        let h = altitude_after(clouds.radius_m, view.altitude_m, ray.mu, at);
+        let p = place_at(at, ray.direction);
         let extinction = band_extinction(band, p, h, true);
         if extinction <= 0.0 {
             empty += 1u;
-            t += select(step_m, 3.0 * step_m, empty > 4u);
+            t += select(narrow_m, WIDE * narrow_m, empty > EMPTY);
             continue;
         }
-        if empty > 5u {
+        if empty > EMPTY + 1u {
             // Walked in with a wide step: back to where the narrow ones begin.
             empty = 0u;
-            t -= 2.0 * step_m;
+            t = max(t - (WIDE - 1.0) * narrow_m, start_m);
             continue;
         }
         empty = 0u;
-        let tau = extinction * step_m;
-        let passed = exp(-tau);
+        let passed = exp(-extinction * narrow_m);
         let share = seen.left * (1.0 - passed);
         seen.light += share * source_at(band, p, h, extinction, ray.nu);
-        seen.distance_m += share * t;
+        seen.distance_m += share * at;
         weight += share;
         seen.left *= passed;
-        t += step_m;
+        t += narrow_m;
     }
     seen.distance_m = select(start_m, seen.distance_m / max(weight, 1e-6), weight > 0.0);
     // What is left of an opaque cloud is nothing.
@@ -261,6 +267,10 @@ fn march_clouds(ray: CloudRay) -> CloudsSeen {
             part = sheet_seen(next.index - 8u, ray, next.start_m);
         }
         let before = air_before(ray, part.distance_m);
+        // The control takes far clouds out of sight as S2 does, by a share that grows with the way.
+        let faded = clouds.haze * (1.0 - exp(-part.distance_m / HAZE_M));
+        part.left = mix(part.left, 1.0, faded);
+        part.light *= 1.0 - faded;
         seen.light += seen.left * (before.left * part.light + (1.0 - part.left) * (before.single + before.multiple));
         seen.left *= part.left;
         t = next.start_m + 0.5;
