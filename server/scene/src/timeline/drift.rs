@@ -23,6 +23,7 @@ const NODES: [(f64, f64); 5] = [
 const MOST_M: f64 = 1e12;
 
 /// What the wind does in a timeline where it changes.
+#[derive(Debug)]
 pub(super) struct Drift {
     /// Of each keyframe: its clouds with nothing but their wind; null where there are no clouds.
     winds: Vec<Value>,

@@ -73,12 +73,34 @@ impl Timeline {
     /// # Errors
     /// Where a keyframe is not a scene, which validation refuses, or where `at_s` leads the sun's time out of its years.
     pub fn at(&self, at_s: f64) -> Result<Scene, SceneError> {
-        Track::new(self)?.at(at_s)
+        self.playback()?.at(at_s)
+    }
+
+    /// Made ready to be asked for many moments.
+    ///
+    /// # Errors
+    /// Where a keyframe is not a scene, which validation refuses.
+    pub fn playback(&self) -> Result<Playback, SceneError> {
+        Track::new(self).map(Playback)
     }
 
     /// The document that a keyframe makes of the scene.
     fn document(&self, keyframe: &Keyframe) -> Value {
         merge::merged(&self.scene, &keyframe.patch)
+    }
+}
+
+/// A timeline whose keyframes have been read: each further moment costs one scene, however many there are.
+#[derive(Debug)]
+pub struct Playback(Track);
+
+impl Playback {
+    /// The scene at a time, as [`Timeline::at`].
+    ///
+    /// # Errors
+    /// Where `at_s` leads the sun's time out of its years.
+    pub fn at(&self, at_s: f64) -> Result<Scene, SceneError> {
+        self.0.at(at_s)
     }
 }
 

@@ -22,6 +22,7 @@ use serde_json::{Value, json};
 /// A time written out longer than this is written anew.
 const MOST_TIME_CHARS: usize = 40;
 
+#[derive(Debug)]
 pub(super) struct Track {
     keys: Vec<Key>,
     drift: Option<Drift>,
@@ -29,6 +30,7 @@ pub(super) struct Track {
     begin_s: Option<f64>,
 }
 
+#[derive(Debug)]
 pub(super) struct Key {
     pub(super) at_s: f64,
     scene: Scene,

@@ -1,6 +1,6 @@
 //! What `/v1/live` speaks, for the OpenAPI document, which has no place for WebSockets of its own.
 
-use super::message::{MAX_SIDE_PX, MIN_SIDE_PX};
+use super::message::{MAX_SIDE_PX, MIN_SIDE_PX, MOST_S};
 use serde_json::{Value, json};
 
 /// Text in.
@@ -8,11 +8,14 @@ pub(crate) fn message_schema() -> Value {
     let side = |what: &str| json!({"type": "integer", "minimum": MIN_SIDE_PX, "maximum": MAX_SIDE_PX, "description": what});
     json!({
         "type": "object",
-        "description": "What a viewer sends to /v1/live. Members may come together; the scene is set before it is patched.",
+        "description": "What a viewer sends to /v1/live. Members may come together, and the scene is set before it is patched; but a timeline or its moment comes without scene and patch.",
         "properties": {
             "seq": {"type": "integer", "minimum": 0, "maximum": u32::MAX, "description": "Comes back with the answers"},
             "scene": {"$ref": "#/components/schemas/Scene"},
-            "patch": {"type": "object", "description": "JSON Merge Patch (RFC 7396) on the document last sent"},
+            "patch": {"type": "object", "description": "JSON Merge Patch (RFC 7396) on the document last sent, or on the moment of the timeline last shown"},
+            "timeline": {"$ref": "#/components/schemas/Timeline"},
+            "at_s": {"type": "number", "minimum": -MOST_S, "maximum": MOST_S,
+                "description": "Shows this moment of the timeline last sent, seconds; 0 where only the timeline is sent"},
             "output": {
                 "type": "object",
                 "properties": {
@@ -23,7 +26,7 @@ pub(crate) fn message_schema() -> Value {
             },
         },
         "required": ["seq"],
-        "anyOf": [{"required": ["scene"]}, {"required": ["patch"]}, {"required": ["output"]}],
+        "anyOf": [{"required": ["scene"]}, {"required": ["patch"]}, {"required": ["timeline"]}, {"required": ["at_s"]}, {"required": ["output"]}],
         "additionalProperties": false,
     })
 }
@@ -47,6 +50,8 @@ pub(crate) fn answer_schema() -> Value {
                     "sun": {"$ref": "#/components/schemas/SunPlace"},
                     "moon": {"anyOf": [{"$ref": "#/components/schemas/MoonPlace"}, {"type": "null"}]},
                     "adapter": {"type": "string"}, "bytes": {"type": "integer"},
+                    "at_s": {"type": "number", "description": "Which moment of the timeline it is, where it is one"},
+                    "scene": {"$ref": "#/components/schemas/Scene", "description": "The scene at that moment"},
                 },
             },
         },

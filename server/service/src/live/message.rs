@@ -14,7 +14,10 @@ pub(crate) const MIN_SIDE_PX: u16 = 16;
 /// Longest side of a live picture, pixels.
 pub(crate) const MAX_SIDE_PX: u16 = 4096;
 
-const MEMBERS: &str = "seq, scene, patch, output";
+/// Latest and earliest moment of a timeline, as its keyframes have them, seconds.
+pub(crate) const MOST_S: f64 = 1e9;
+
+const MEMBERS: &str = "seq, scene, patch, timeline, at_s, output";
 const OUTPUT_MEMBERS: &str = "width_px, height_px, format, quality";
 
 /// A message that is well formed; its scene has not been looked at.
@@ -23,6 +26,8 @@ pub(crate) struct Message {
     pub(crate) seq: u32,
     pub(crate) scene: Option<Value>,
     pub(crate) patch: Option<Value>,
+    pub(crate) timeline: Option<Value>,
+    pub(crate) at_s: Option<f64>,
     pub(crate) output: Option<OutputChange>,
 }
 
@@ -77,20 +82,32 @@ pub(crate) fn read(text: &str) -> Result<Message, (Option<u32>, Error)> {
 }
 
 fn rest(seq: u32, mut members: Map<String, Value>) -> Result<Message, Error> {
-    let (scene, patch, output) = (
-        members.remove("scene"),
-        members.remove("patch"),
-        members.remove("output"),
-    );
+    let [scene, patch, timeline, at_s, output] =
+        ["scene", "patch", "timeline", "at_s", "output"].map(|name| members.remove(name));
     refuse_others("", &members, MEMBERS)?;
-    if scene.is_none() && patch.is_none() && output.is_none() {
-        let message = "a message needs `scene`, `patch` or `output`".to_owned();
+    let (is_scene, is_moment) = (
+        scene.is_some() || patch.is_some(),
+        timeline.is_some() || at_s.is_some(),
+    );
+    if !is_scene && !is_moment && output.is_none() {
+        let message = "a message needs `scene`, `patch`, `timeline`, `at_s` or `output`".to_owned();
         return Err(Error::Invalid(vec![Fault::field(
             "",
             Value::Null,
-            "scene, patch or output".into(),
+            "scene, patch, timeline, at_s or output".into(),
             message,
         )]));
+    }
+    if is_scene && is_moment {
+        let (pointer, value) = match (&timeline, &at_s) {
+            (Some(timeline), _) => ("/timeline", timeline),
+            (None, at_s) => ("/at_s", at_s.as_ref().unwrap_or(&Value::Null)),
+        };
+        return Err(wrong(
+            pointer,
+            value,
+            "left out where `scene` or `patch` is given",
+        ));
     }
     if let Some(patch) = patch.as_ref().filter(|patch| !patch.is_object()) {
         return Err(wrong("/patch", patch, "an object (RFC 7396)"));
@@ -99,8 +116,15 @@ fn rest(seq: u32, mut members: Map<String, Value>) -> Result<Message, Error> {
         seq,
         scene,
         patch,
+        timeline,
+        at_s: at_s.as_ref().map(moment).transpose()?,
         output: output.map(read_output).transpose()?,
     })
+}
+
+fn moment(value: &Value) -> Result<f64, Error> {
+    let at_s = value.as_f64().filter(|at_s| at_s.abs() <= MOST_S);
+    at_s.ok_or_else(|| wrong("/at_s", value, "a number from -1e9 to 1e9 seconds"))
 }
 
 fn read_output(output: Value) -> Result<OutputChange, Error> {
@@ -218,7 +242,7 @@ mod tests {
 
         /// Near misses: the right members with any value.
         #[test]
-        fn any_member_is_answered(member in "seq|scene|patch|output|[a-z/~]{0,9}", value in "null|-?[0-9]{1,12}|\\{\\}|\"\"") {
+        fn any_member_is_answered(member in "seq|scene|patch|timeline|at_s|output|[a-z/~]{0,9}", value in "null|-?[0-9]{1,12}|\\{\\}|\"\"") {
             let _ = read(&format!("{{\"seq\": 1, {}: {value}}}", json!(member)));
         }
 
@@ -226,7 +250,7 @@ mod tests {
         fn what_is_said_is_heard(seq: u32, width_px in MIN_SIDE_PX..=MAX_SIDE_PX, time_s: i32) {
             let text = json!({"seq": seq, "patch": {"time_s": time_s}, "output": {"width_px": width_px}}).to_string();
             let output = OutputChange { width_px: Some(width_px), ..OutputChange::default() };
-            let heard = Message { seq, scene: None, patch: Some(json!({"time_s": time_s})), output: Some(output) };
+            let heard = Message { seq, scene: None, patch: Some(json!({"time_s": time_s})), timeline: None, at_s: None, output: Some(output) };
             prop_assert_eq!(read(&text).unwrap(), heard);
         }
     }

@@ -28,7 +28,8 @@ const MAX_SOCKET_MESSAGE_BYTES: usize = 4 * MAX_BODY_BYTES;
 /// RGBA8); three zero bytes; then the picture. After each picture comes a ping that carries its `seq`; the next
 /// picture waits for the pong. The latest message wins. When nothing changes the picture refines once to full size
 /// and quality, and the stream falls silent. JSON Merge Patch reads `null` as "remove", so a part that has a
-/// default is switched off by sending the whole `scene`.
+/// default is switched off by sending the whole `scene`. A `timeline` is sent once and played by `at_s` after `at_s`:
+/// each moment that is shown comes with its scene in the stats.
 #[utoipa::path(get, path = "/v1/live", tag = "frames", responses(
     (status = 101, description = "The WebSocket opens"), NoSocket))]
 pub(crate) async fn live(

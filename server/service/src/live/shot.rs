@@ -114,12 +114,16 @@ pub(crate) async fn take(service: Service, view: View, stage: Stage) -> Result<S
     };
     let (message, encoding) = service.encode(output.format, work).await?;
     let ms = |duration: Duration| duration.as_secs_f64() * 1e3;
-    let stats = json!({
+    let mut stats = json!({
         "passes": passes, "render_ms": ms(rendering), "encode_ms": ms(encoding),
         "width_px": width_px, "height_px": height_px, "quality": quality, "ev100": facts.ev100,
         "sun": facts.sun, "moon": facts.moon, "adapter": service.renderer.device().adapter,
         "bytes": message.len() - header::LENGTH,
     });
+    if let Some(at_s) = view.at_s {
+        stats["at_s"] = at_s.into();
+        stats["scene"] = json!(*view.scene);
+    }
     let message = message.into();
     Ok(Shot {
         stage,

@@ -18,6 +18,7 @@ mod hostile;
 mod limits;
 mod live;
 mod live_flow;
+mod live_timeline;
 mod metar;
 mod openapi;
 mod shutdown;
