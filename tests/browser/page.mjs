@@ -17,19 +17,19 @@ const PATIENCE_MS = 45_000;
 export const DESK = { width: 900, height: 560 };
 export const PHONE = { width: 360, height: 740 };
 
-/** One server and one browser for the tests of a file. */
-export function useBrowser() {
+/** One server and one browser for the tests of a file. @param {string[]} [more] Further arguments of the server */
+export function useBrowser(more = []) {
   /** @type {import('playwright-core').Browser} */
   let browser;
   /** @type {Awaited<ReturnType<typeof startServer>>} */
   let server;
   before(async () => {
-    server = await startServer();
+    server = await startServer(more);
     browser = await chromium.launch({ executablePath: process.env.CHROMIUM ?? '/usr/bin/chromium', args: ARGUMENTS });
   });
   after(async () => {
     await browser?.close();
-    await server?.stop();
+    await server?.end();
   });
 
   /**

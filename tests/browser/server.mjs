@@ -1,7 +1,10 @@
 /** Starts the real program on a free port, and stops it. */
 import { spawn } from 'node:child_process';
 import { once } from 'node:events';
+import { mkdtemp, rm } from 'node:fs/promises';
 import { createServer } from 'node:net';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
 import { fileURLToPath } from 'node:url';
 
 const PROGRAM = process.env.WELKIN_BIN ?? fileURLToPath(new URL('../../target/release/welkin', import.meta.url));
@@ -26,14 +29,16 @@ async function isReady(url) {
   }
 }
 
-export async function startServer() {
+/** @param {string[]} [more] Further arguments */
+export async function startServer(more = []) {
   const port = await freePort();
+  const assets = await mkdtemp(join(tmpdir(), 'welkin-assets-'));
   const url = `http://127.0.0.1:${port}/`;
   /** @type {import('node:child_process').ChildProcess} */
   let child;
   let log = '';
   const start = async () => {
-    child = spawn(PROGRAM, ['serve', '--listen', `127.0.0.1:${port}`], { stdio: ['ignore', 'pipe', 'pipe'] });
+    child = spawn(PROGRAM, ['serve', '--listen', `127.0.0.1:${port}`, '--assets', assets, ...more], { stdio: ['ignore', 'pipe', 'pipe'] });
     child.on('error', (error) => (log += error.message));
     for (const stream of [child.stdout, child.stderr]) stream?.on('data', (data) => (log += data));
     for (const end = Date.now() + START_MS; !(await isReady(url)); await new Promise((r) => setTimeout(r, 100))) {
@@ -49,5 +54,9 @@ export async function startServer() {
     await once(child, 'exit');
   };
   await start();
-  return { url, start, stop };
+  const end = async () => {
+    await stop();
+    await rm(assets, { recursive: true });
+  };
+  return { url, start, stop, end };
 }

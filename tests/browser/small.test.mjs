@@ -158,7 +158,7 @@ test('a command quotes what a shell would read', () => {
 });
 
 test('a part that changes its shape keeps what it says', () => {
-  const known = { sun: () => ({ azimuth_deg: 90, elevation_deg: 0 }), ev: () => 12.34, timeAndPlace: () => ({ time: 'now' }) };
+  const known = { sun: () => ({ azimuth_deg: 90, elevation_deg: 0 }), ev: () => 12.34, timeAndPlace: () => ({ time: 'now' }), mapName: async () => 'front' };
   assert.deepEqual(carryOver({ azimuth_deg: 90, elevation_deg: 0 }, [0, 0, 0], known), [1, 0, 0]);
   assert.deepEqual(carryOver({ time: 'x' }, { azimuth_deg: 0, elevation_deg: 0 }, known), { azimuth_deg: 90, elevation_deg: 0 });
   assert.deepEqual(carryOver({ kind: 'auto' }, { kind: 'ev', ev: 0 }, known), { kind: 'ev', ev: 12.3 });

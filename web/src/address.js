@@ -14,13 +14,19 @@ export function bindAddress(store, complain) {
       complain(`The address holds no scene: ${/** @type {Error} */ (error).message}. This is the default scene.`);
     }
   };
+  /** Where a timeline led is no place to go back to. */
+  let isPlayed = false;
   const write = () => {
     const hash = toHash(store.short());
-    if (hash !== location.hash) history.pushState(null, '', hash || location.pathname + location.search);
+    const url = hash || location.pathname + location.search;
+    if (hash === location.hash) return;
+    if (isPlayed) history.replaceState(null, '', url);
+    else history.pushState(null, '', url);
   };
   const writeSoon = debounced(write, REST_MS);
   read();
   store.subscribe((_, cause) => {
+    isPlayed = cause === 'played';
     if (cause !== 'address') writeSoon();
   });
   window.addEventListener('popstate', read);

@@ -28,3 +28,28 @@ export const postFrame = async (request, signal) => (await post('v1/frames', req
 
 /** The scene that a weather report tells. @param {{metar: string, date: string | null}} report @returns {Promise<any>} */
 export const postReport = async (report) => (await post('v1/scenes/from-metar', report)).json();
+
+const MAPS = 'v1/assets/weather-maps';
+
+/** @typedef {{name: string, bytes: number, sha256: string, width_px: number, height_px: number}} Asset */
+
+/** The weather maps that the server keeps. @returns {Promise<Asset[]>} */
+export const listMaps = async () => (await getJson(MAPS)).assets;
+
+/** @param {string} name @returns {Promise<Blob>} */
+export async function getMap(name) {
+  const response = await fetch(`${MAPS}/${name}`);
+  if (!response.ok) throw await failure(response);
+  return response.blob();
+}
+
+/**
+ * Stores a weather map. Where `isNew`, one that has the name stays, and the error's problem has the status 412.
+ * @param {string} name @param {Blob} file @param {{isNew?: boolean}} [options] @returns {Promise<Asset>}
+ */
+export async function putMap(name, file, { isNew = false } = {}) {
+  const headers = { 'content-type': 'image/png', ...(isNew ? { 'if-none-match': '*' } : {}) };
+  const response = await fetch(`${MAPS}/${name}`, { method: 'PUT', headers, body: file });
+  if (!response.ok) throw await failure(response);
+  return response.json();
+}

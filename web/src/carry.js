@@ -10,11 +10,14 @@ const SUNNY_EV = 15;
  * @param {() => import('./vector.js').Angles | null} known.sun Where the sun stands now
  * @param {() => number | null} known.ev What the last picture was exposed with
  * @param {() => any} known.timeAndPlace
- * @returns {any}
+ * @param {() => string | Promise<string>} known.mapName A weather map that the server has
+ * @returns {any} A promise where the server must be asked
  */
 export function carryOver(value, fresh, known) {
   if (isObject(fresh) && 'time' in fresh) return known.timeAndPlace();
   if (isObject(fresh) && fresh.kind === 'ev') return { ...fresh, ev: Math.round((known.ev() ?? SUNNY_EV) * 10) / 10 };
+  if (isObject(value) && isObject(fresh) && 'extent_m' in value && 'extent_m' in fresh) fresh = { ...fresh, extent_m: value.extent_m };
+  if (isObject(fresh) && fresh.kind === 'asset') return Promise.resolve(known.mapName()).then((name) => ({ ...fresh, name }));
   const isDirection = Array.isArray(fresh) || (isObject(fresh) && 'azimuth_deg' in fresh);
   if (!isDirection) return fresh;
   const angles = isObject(value) && 'time' in value ? known.sun() : directionAngles(value);

@@ -16,10 +16,12 @@ const ZOOM_STEP = 1.1;
  * @param {() => void} parts.panel
  * @param {() => void} parts.bare
  * @param {() => void} parts.save
+ * @param {() => void} parts.play
+ * @param {{act: () => void, undo: () => void}} parts.surprise
  * @param {() => void} parts.help
  * @returns {Binding[]}
  */
-export function bindings({ sun, camera, preset, panel, bare, save, help }) {
+export function bindings({ sun, camera, preset, panel, bare, save, play, surprise, help }) {
   const sunStep = (/** @type {number} */ az, /** @type {number} */ el) => (/** @type {KeyboardEvent} */ event) => {
     const step = event.shiftKey ? FINE_STEP_DEG : SUN_STEP_DEG;
     sun.nudge(az * step, el * step);
@@ -39,6 +41,9 @@ export function bindings({ sun, camera, preset, panel, bare, save, help }) {
     { keys: ['+', '='], shown: '+ −', does: 'Zoom', act: () => camera.zoom(1 / ZOOM_STEP) },
     { keys: ['-', '_'], shown: '+ −', does: 'Zoom', act: () => camera.zoom(ZOOM_STEP) },
     { keys: [...'123456789'], shown: '1 … 9', does: 'Preset', act: (event) => preset(Number(event.key) - 1) },
+    { keys: ['r'], shown: 'R', does: 'Surprise me', act: surprise.act },
+    { keys: ['u'], shown: 'U', does: 'Undo the surprise', act: surprise.undo },
+    { keys: [' '], shown: 'Space', does: 'Play or pause the timeline', act: play },
     { keys: ['p'], shown: 'P', does: 'Show or hide the panel', act: panel },
     { keys: ['h'], shown: 'H', does: 'Hide everything but the sky', act: bare },
     { keys: ['e'], shown: 'E', does: 'Save a picture', act: save },
@@ -52,6 +57,8 @@ export function listenToKeys(table) {
     const target = /** @type {Element} */ (event.target);
     if (event.ctrlKey || event.metaKey || event.altKey || target.closest('input, select, textarea, dialog[open]')) return;
     const key = event.key.length === 1 ? event.key.toLowerCase() : event.key;
+    // The key that presses a button.
+    if (key === ' ' && target.closest('button, summary, a')) return;
     const binding = table.find(({ keys }) => keys.includes(key));
     if (!binding) return;
     event.preventDefault();

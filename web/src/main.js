@@ -6,11 +6,14 @@ import { carryOver } from './carry.js';
 import { byId } from './dom.js';
 import { createDome } from './dome.js';
 import { createDrags } from './drag.js';
+import { createDrawers } from './drawers.js';
+import { createGallery } from './gallery.js';
 import { listenToGestures } from './gestures.js';
 import { createHud } from './hud.js';
 import { bindings, fillHelp, listenToKeys } from './keys.js';
 import { createMark } from './mark.js';
 import { createMoon } from './moon.js';
+import { createPainter } from './paint/painter.js';
 import { createPanel } from './panel.js';
 import { createPresets } from './presets.js';
 import { createSave } from './save.js';
@@ -20,9 +23,15 @@ import { createSky } from './sky.js';
 import { createStage } from './stage.js';
 import { createStore } from './store.js';
 import { createSun } from './sun.js';
+import { createSurprise } from './surprise.js';
 import { createTimePlace } from './time-place.js';
+import { createTimelineBar } from './timeline/bar.js';
+import { createPlayer } from './timeline/player.js';
 import { toast } from './toast.js';
 import { createWeatherReport } from './weather-report.js';
+
+/** The preset whose clouds stand in where a scene has none. */
+const FAIR = 'fair-weather';
 
 const complain = (/** @type {string} */ message) => toast(message, { bad: true });
 
@@ -41,10 +50,20 @@ async function start() {
   const timePlace = createTimePlace(store);
   timePlace.onLeave(() => sun.nudge(0, 0));
   createWeatherReport(store);
-  const sky = createSky({ store, stage, sun, moon, hud, refused: (pointer, message) => panel.complain(pointer, message) || complain(message) });
-  const known = { sun: sun.angles, moon: moon.place, ev: sky.exposure, timeAndPlace: timePlace.current };
-  const panel = createPanel(store, (value, fresh) => carryOver(value, fresh, known), known);
   const presets = createPresets(store, presetList);
+  const fair = presets.all.find(({ name }) => name === FAIR)?.scene.clouds;
+  const player = createPlayer(() => performance.now());
+  const timeline = createTimelineBar(store, player);
+  const painter = createPainter(store, stage, fair, () => drawers.show('painter'));
+  const gallery = createGallery(presets);
+  const surprise = createSurprise(store, byId('surprise', HTMLButtonElement), fair);
+  const sky = createSky({ store, stage, sun, moon, hud, player, stopped: timeline.refused, refused: (pointer, message) => panel.complain(pointer, message) || complain(message) });
+  const known = { sun: sun.angles, moon: moon.place, ev: sky.exposure, timeAndPlace: timePlace.current, mapName: painter.mapName };
+  const suggestions = (/** @type {string} */ pointer) => (pointer.endsWith('/name') ? painter.names() : []);
+  const panel = createPanel(store, (value, fresh) => carryOver(value, fresh, known), known, suggestions);
+  const narrow = window.matchMedia('(max-width: 720px)');
+  const drawers = createDrawers({ gallery, painter }, () => narrow.matches && panel.show(false));
+  panel.onShow(() => narrow.matches && drawers.close());
   createShare(store, address.link, stage.size);
   const save = createSave(store, stage.size);
   const help = byId('help', HTMLDialogElement);
@@ -55,6 +74,8 @@ async function start() {
     panel: panel.toggle,
     bare: () => document.body.classList.toggle('bare'),
     save: save.open,
+    play: timeline.playOrPause,
+    surprise,
     help: () => help.showModal(),
   });
   fillHelp(keys);
@@ -62,9 +83,9 @@ async function start() {
   byId('open-help', HTMLButtonElement).addEventListener('click', () => help.showModal());
   byId('open-save', HTMLButtonElement).addEventListener('click', save.open);
   listenToGestures(canvas, createDrags({ sun, moon, camera, stage }), camera);
-  if (window.matchMedia('(max-width: 720px)').matches) panel.show(false);
+  if (narrow.matches) panel.show(false);
 
-  sky.run([panel, presets, timePlace, createDome(store, sun, moon), createMark(sun, camera, stage)]);
+  sky.run([panel, presets, gallery, painter, timeline, timePlace, createDome(store, sun, moon), createMark(sun, camera, stage)]);
 }
 
 start().catch((error) => complain(`The page cannot start: ${error.message}`));

@@ -6,20 +6,21 @@ import { child, tokens } from './pointer.js';
 import { turnedOn } from './starts.js';
 
 /** Order of the parts that a photographer meets first; others follow as the schema has them. */
-const ORDER = ['camera', 'sun', 'moon', 'stars', 'atmosphere', 'haze', 'planet', 'display'];
+const ORDER = ['camera', 'sun', 'moon', 'stars', 'clouds', 'atmosphere', 'haze', 'planet', 'display'];
 const OPEN = ['sun'];
 
 /** @typedef {import('./fields/row.js').Context} Context */
 
 /**
  * @param {import('./store.js').Store} store @param {Context['carryOver']} carryOver
- * @param {import('./starts.js').Known} known
+ * @param {import('./starts.js').Known} known @param {Context['suggestions']} suggestions
  */
-export function createPanel(store, carryOver, known) {
+export function createPanel(store, carryOver, known, suggestions) {
   /** @type {Context} */
   const context = {
     store,
     carryOver,
+    suggestions,
     complaints: new Map(),
     turnOn: (pointer, node) => store.replace(turnedOn(store.scene, pointer, node, known)),
   };
@@ -33,14 +34,19 @@ export function createPanel(store, carryOver, known) {
   byId('fields', HTMLDivElement).append(...fields.map(({ field }) => field.element));
   const panel = byId('panel', HTMLElement);
   const toggle = byId('toggle-panel', HTMLButtonElement);
+  /** @type {() => void} */
+  let shows = () => {};
   const show = (/** @type {boolean} */ shown) => {
     panel.hidden = !shown;
+    if (shown) shows();
     toggle.setAttribute('aria-expanded', String(shown));
   };
   toggle.addEventListener('click', () => show(Boolean(panel.hidden)));
   byId('reset-scene', HTMLButtonElement).addEventListener('click', () => store.load({}));
   return {
     show,
+    /** @param {() => void} act */
+    onShow: (act) => (shows = act),
     toggle: () => show(Boolean(panel.hidden)),
     update: () => fields.forEach(({ key, field }) => field.update(store.scene[key])),
     /**

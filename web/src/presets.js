@@ -1,8 +1,10 @@
-/** The row of ready-made scenes. */
+/** Ready-made scenes; the first of them stand in a row, as many as have a key. */
 import { byId, h } from './dom.js';
 import { complete } from './document.js';
 import { equal } from './json.js';
 import { announce } from './toast.js';
+
+const KEYS = 9;
 
 /** @typedef {{name: string, title: string, description: string, scene: any}} Preset */
 
@@ -14,13 +16,20 @@ export function createPresets(store, list) {
     store.replace(preset.scene);
     announce(`${preset.title}. ${preset.description}`);
   };
-  const buttons = presets.map((preset) =>
+  const isShown = (/** @type {Preset} */ { scene }) => equal(scene, store.scene);
+  const buttons = presets.slice(0, KEYS).map((preset) =>
     h('button', { type: 'button', class: 'glass', 'data-preset': preset.name, title: preset.description, onclick: () => choose(preset) }, preset.title),
   );
   byId('presets', HTMLElement).append(...buttons);
   return {
     /** @param {number} index */
     choose: (index) => choose(presets[index]),
-    update: () => presets.forEach(({ scene }, i) => buttons[i].setAttribute('aria-pressed', String(equal(scene, store.scene)))),
+    all: presets,
+    /** @param {Preset} preset */
+    take: choose,
+    isShown,
+    update: () => buttons.forEach((button, i) => button.setAttribute('aria-pressed', String(isShown(presets[i])))),
   };
 }
+
+/** @typedef {ReturnType<typeof createPresets>} Presets */

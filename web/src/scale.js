@@ -3,6 +3,8 @@ import { clamp } from './vector.js';
 
 /** A range this many times its default, or its least value, is read on a logarithm. */
 const DECADES = 50;
+/** Lengths are, from this on: heights of clouds matter near the ground as they do at the tropopause. */
+const LENGTH_DECADES = 10;
 /** A range that starts at zero has its first position there, the next at the default over this. */
 const BELOW_DEFAULT = 1000;
 /** A range round zero wider than this is nothing that a slider can set. */
@@ -17,7 +19,7 @@ export function createScale({ minimum, maximum, initial, unit, integer }) {
   if (minimum < 0 && span > WIDEST_ROUND_ZERO) return null;
   const anchor = minimum > 0 ? minimum : Number(initial) / BELOW_DEFAULT;
   const decades = minimum > 0 ? maximum / minimum : maximum / Number(initial);
-  if (minimum >= 0 && unit !== '°' && anchor > 0 && decades >= DECADES) return logarithmic(minimum, anchor, maximum, Boolean(integer));
+  if (minimum >= 0 && unit !== '°' && anchor > 0 && decades >= (unit === 'm' ? LENGTH_DECADES : DECADES)) return logarithmic(minimum, anchor, maximum, Boolean(integer));
   const step = Math.max(10 ** Math.floor(Math.log10(span / 500)), integer ? 1 : 0);
   return {
     step,

@@ -17,6 +17,7 @@ import { isObject } from './json.js';
  * @property {number} [length] Of `numbers` and `bands`.
  * @property {Property[]} [properties] Of `object`.
  * @property {Node} [items] Of `numbers`, `bands` and `list`.
+ * @property {number} [most] Of `list`: how many items it may have.
  * @property {{value: string, description: string}[]} [options] Of `choice`.
  * @property {Variant[]} [variants] Of `variant`.
  */
@@ -65,7 +66,7 @@ function readNode(unresolved, resolve) {
     case 'array': {
       const items = readNode(s.items ?? s.prefixItems[0], resolve);
       const fixed = items.type === 'number' && s.minItems !== undefined && s.minItems === s.maxItems;
-      return fixed ? { ...common, type: 'numbers', length: s.minItems, items } : { ...common, type: 'list', items };
+      return fixed ? { ...common, type: 'numbers', length: s.minItems, items } : { ...common, type: 'list', items, most: s.maxItems };
     }
     case 'boolean':
       return { ...common, type: 'boolean' };

@@ -1,4 +1,5 @@
 /** The frame loop: pictures and figures come in, changes of the scene go out, the page follows. */
+import { complete } from './document.js';
 import { connectLive } from './live.js';
 import { getAt, setAt } from './pointer.js';
 import { decodeFrame, isFinal, parseFrame } from './protocol.js';
@@ -7,6 +8,8 @@ import { compass, percent } from './text.js';
 
 /** From this status on the scene is not to blame. */
 const SERVER_FAULT = 500;
+/** Pointers of what is wrong with a timeline or its moment. */
+const OF_TIMELINE = /^\/(timeline|at_s)/;
 
 /**
  * @param {object} parts
@@ -15,9 +18,11 @@ const SERVER_FAULT = 500;
  * @param {import('./sun.js').Sun} parts.sun
  * @param {import('./moon.js').Moon} parts.moon
  * @param {import('./hud.js').Hud} parts.hud
+ * @param {import('./timeline/player.js').Player} parts.player
+ * @param {(message: string) => void} parts.stopped Says why the server does not play the timeline
  * @param {(pointer: string, message: string) => void} parts.refused Shows why the server refused a scene
  */
-export function createSky({ store, stage, sun, moon, hud, refused }) {
+export function createSky({ store, stage, sun, moon, hud, player, stopped, refused }) {
   const canvas = /** @type {HTMLCanvasElement} */ (document.getElementById('sky'));
   let changed = true;
   /** @type {number | null} */
@@ -41,13 +46,25 @@ export function createSky({ store, stage, sun, moon, hud, refused }) {
   /** The field that was refused goes back to what the server last drew, and the rest of the scene stays. */
   const onError = (/** @type {number | null} */ seq, /** @type {any} */ problem) => {
     const pointer = (problem.pointer ?? '').replace(/^\/scene/, '');
+    const message = (problem.detail ?? problem.title).replaceAll('`', '');
+    if (OF_TIMELINE.test(pointer) || (player.isShown() && problem.status < SERVER_FAULT)) {
+      if (seq !== null) sync.refuse(seq);
+      return stopped(message);
+    }
     const isOurs = seq !== null && problem.status < SERVER_FAULT && sync.refuse(seq);
     if (isOurs) {
       const good = sync.accepted && getAt(sync.accepted, pointer);
       if (!sync.accepted) store.load({}, 'refused');
       else store.replace(good === undefined ? sync.accepted : setAt(store.scene, pointer, good), 'refused');
     }
-    refused(pointer, (problem.detail ?? problem.title).replaceAll('`', ''));
+    refused(pointer, message);
+  };
+  /** The page follows the timeline. */
+  const onMoment = (/** @type {number} */ at_s, /** @type {any} */ document) => {
+    const scene = complete(store.root, document);
+    player.showed(at_s);
+    sync.showed(scene);
+    store.replace(scene, 'played');
   };
 
   const onText = (/** @type {any} */ { seq, stats, error }) => {
@@ -57,6 +74,7 @@ export function createSky({ store, stage, sun, moon, hud, refused }) {
     sun.report(stats.sun);
     moon.report(stats.moon);
     exposure = stats.ev100;
+    if (stats.scene && player.isShown()) onMoment(stats.at_s, stats.scene);
     changed = true;
   };
 
@@ -69,7 +87,7 @@ export function createSky({ store, stage, sun, moon, hud, refused }) {
     text: onText,
     binary: onFrame,
   });
-  const sync = createSync(live.send, () => store.scene);
+  const sync = createSync(live.send, () => store.scene, player.moment);
   store.subscribe(() => (changed = true));
   window.addEventListener('resize', () => (changed = true));
 
@@ -90,7 +108,7 @@ export function createSky({ store, stage, sun, moon, hud, refused }) {
     /** @param {{update: () => void}[]} followers What shows the scene */
     run(followers) {
       const tick = () => {
-        if (changed) {
+        if (changed || player.isPlaying()) {
           changed = false;
           stage.setProjection(store.scene.camera.projection.kind);
           stage.resize();

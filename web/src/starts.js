@@ -14,7 +14,7 @@ import { wrap360 } from './vector.js';
 const CONTRAST_DEPTH = 3.912;
 const MOON_ELEVATION_DEG = 30;
 
-/** @type {Record<string, (scene: any, known: Known) => any>} */
+/** By pointer, `*` for any place in a list. @type {Record<string, (scene: any, known: Known) => any>} */
 const STARTS = {
   '/haze/visibility_m': ({ haze }) => (haze?.extinction_per_m ? Number((CONTRAST_DEPTH / haze.extinction_per_m).toPrecision(3)) : 20_000),
   '/haze/extinction_per_m': ({ haze }) => Number((CONTRAST_DEPTH / (haze?.visibility_m ?? 20_000)).toPrecision(3)),
@@ -27,6 +27,11 @@ const STARTS = {
   '/moon/angular_diameter_deg': (_, known) => Number((known.moon()?.angular_diameter_deg ?? 0.518).toFixed(3)),
   '/atmosphere/view_steps': () => 32,
   '/atmosphere/sun_steps': () => 32,
+  '/clouds/shape/seed': ({ clouds }) => clouds.seed,
+  '/clouds/weather_map/seed': ({ clouds }) => clouds.seed,
+  '/clouds/layers/*/coverage': ({ clouds }) => clouds.coverage,
+  '/clouds/layers/*/type': () => 0.5,
+  '/clouds/layers/*/optical_depth': () => 1,
 };
 
 /** One quantity in two forms: the server takes one of them. @type {Record<string, string>} */
@@ -37,7 +42,7 @@ const OTHER_FORM = { '/haze/visibility_m': '/haze/extinction_per_m', '/haze/exti
  * @param {any} scene @param {string} pointer @param {import('./schema.js').Node} node @param {Known} known
  */
 export function turnedOn(scene, pointer, node, known) {
-  const start = STARTS[pointer]?.(scene, known);
+  const start = STARTS[pointer.replaceAll(/\/\d+/g, '/*')]?.(scene, known);
   let next = setAt(scene, pointer, start ?? initial(node) ?? initial({ ...node, initial: undefined }));
   if (OTHER_FORM[pointer]) next = setAt(next, OTHER_FORM[pointer], null);
   // Haze that does not say how dense it is shows nothing to set.

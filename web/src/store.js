@@ -4,7 +4,10 @@ import { equal } from './json.js';
 import { getAt, setAt } from './pointer.js';
 
 /** @typedef {import('./schema.js').Node} Node */
-/** @typedef {'page' | 'address' | 'refused'} Cause Who changed it: the user here, the address bar, the server's refusal. */
+/**
+ * @typedef {'page' | 'address' | 'refused' | 'played'} Cause Who changed it: the user here, the address bar, the server's refusal,
+ * a timeline that is played.
+ */
 
 /** @param {Node} root The schema's tree */
 export function createStore(root) {

@@ -10,11 +10,16 @@ export function announce(message) {
   if (region.textContent !== message) region.textContent = message;
 }
 
-/** @param {string} message @param {{bad?: boolean}} [options] */
-export function toast(message, { bad = false } = {}) {
+/** @param {string} message @param {{bad?: boolean, action?: {name: string, act: () => void}}} [options] */
+export function toast(message, { bad = false, action } = {}) {
   const list = byId('toasts', HTMLDivElement);
   const close = h('button', { type: 'button', 'aria-label': 'Dismiss', class: 'quiet', onclick: () => element.remove() }, '×');
-  const element = h('div', { class: `toast glass ${bad ? 'bad' : ''}`, role: bad ? 'alert' : 'status' }, h('span', {}, message), close);
+  const act = () => {
+    element.remove();
+    action?.act();
+  };
+  const button = action ? h('button', { type: 'button', onclick: act }, action.name) : null;
+  const element = h('div', { class: `toast glass ${bad ? 'bad' : ''}`, role: bad ? 'alert' : 'status' }, h('span', {}, message), button, close);
   for (const same of list.children) if (same.firstChild?.textContent === message) same.remove();
   while (list.children.length >= MOST) list.firstChild?.remove();
   list.append(element);

@@ -34,8 +34,10 @@ export function booleanField(context, pointer, node) {
 /** @param {Context} context @param {string} pointer @param {Node} node */
 export function textField(context, pointer, node) {
   return createRow(context, pointer, node, (id, edit) => {
-    const input = h('input', { type: 'text', id, spellcheck: 'false' });
+    const list = h('datalist', { id: `${id}-known` });
+    const input = h('input', { type: 'text', id, spellcheck: 'false', autocomplete: 'off', list: list.id });
+    input.addEventListener('focus', () => list.replaceChildren(...context.suggestions(pointer).map((value) => h('option', { value }))));
     input.addEventListener('change', () => edit(input.value));
-    return { controls: [input], show: (value) => (input.value = value) };
+    return { controls: [input, list], show: (value) => (input.value = value) };
   });
 }

@@ -9,7 +9,8 @@ import { resetButton } from './row.js';
 
 /** Fields that a photographer looks for first. */
 const FIRST = [
-  'position', 'position_m', 'direction', 'projection', 'exposure', 'tone_curve', 'visibility_m', 'extinction_per_m',
+  'base_m', 'top_m', 'height_m', 'genus', 'type', 'coverage', 'density', 'precipitation', 'seed', 'layers', 'weather_map', 'wind',
+  'shape', 'phase', 'speed_m_s', 'position', 'position_m', 'direction', 'projection', 'exposure', 'tone_curve', 'visibility_m', 'extinction_per_m',
   'phase_angle_deg', 'method', 'orders', 'view_steps', 'sun_steps',
 ];
 

@@ -55,7 +55,10 @@ function oneNumber(node, id, edit, complain) {
 }
 
 /** The description says what the numbers are. @param {Node} node */
-const axisNames = ({ description }) => (/\bR, G and B\b/.test(description) ? ['R', 'G', 'B'] : ['East', 'North', 'Up']);
+const axisNames = ({ description, length }) => {
+  if (length === 4) return ['Begins', 'Full', 'Thins', 'Ends'];
+  return /\bR, G and B\b/.test(description) ? ['R', 'G', 'B'] : ['East', 'North', 'Up'];
+};
 
 /**
  * The controls of a fixed row of numbers.

@@ -9,7 +9,8 @@ import { equal } from '../json.js';
  * @typedef {object} Context
  * @property {import('../store.js').Store} store
  * @property {Map<string, (message: string) => void>} complaints How to show an error at a pointer.
- * @property {(value: any, fresh: any) => any} carryOver Keeps what an old variant's value says in a new one.
+ * @property {(value: any, fresh: any) => any} carryOver Keeps what an old variant's value says in a new one; may take its time.
+ * @property {(pointer: string) => string[]} suggestions What a text may well be.
  * @property {(pointer: string, node: Node) => void} turnOn Gives a part that is off the values it begins with.
  */
 

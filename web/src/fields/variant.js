@@ -12,20 +12,23 @@ import { createRow } from './row.js';
 /** @param {import('./row.js').Context} context @param {string} pointer @param {Node} node @returns {import('./row.js').Field} */
 export function variantField(context, pointer, node) {
   const variants = node.variants ?? [];
-  const row = createRow(context, pointer, node, (id, edit) => {
+  const row = createRow(context, pointer, node, (id, edit, complain) => {
     const names = variants.map(({ name, node: n }, i) => h('option', { value: i, title: n.description }, sentence(name)));
     const select = h('select', { id }, ...names);
-    select.addEventListener('change', () => {
-      const fresh = initialVariant(node, Number(select.value));
-      edit(context.carryOver(context.store.get(pointer), fresh));
-    });
-    return {
-      controls: [select],
-      show(value) {
-        select.value = String(variantOf(node, value));
-        select.title = variants[variantOf(node, value)].node.description;
-      },
+    const show = (/** @type {any} */ value) => {
+      select.value = String(variantOf(node, value));
+      select.title = variants[variantOf(node, value)].node.description;
     };
+    select.addEventListener('change', async () => {
+      const fresh = initialVariant(node, Number(select.value));
+      try {
+        edit(await context.carryOver(context.store.get(pointer), fresh));
+      } catch (error) {
+        show(context.store.get(pointer));
+        complain(/** @type {Error} */ (error).message);
+      }
+    });
+    return { controls: [select], show };
   });
   const body = h('div', { class: 'variant-body' });
   let shown = -1;
