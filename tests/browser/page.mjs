@@ -17,6 +17,25 @@ const PATIENCE_MS = 45_000;
 export const DESK = { width: 900, height: 560 };
 export const PHONE = { width: 360, height: 740 };
 
+/** What each page has sent over its live connection. @type {WeakMap<Page, any[]>} */
+const messages = new WeakMap();
+/** @param {Page} page @returns {any[]} */
+export const sent = (page) => messages.get(page) ?? [];
+
+/** The scene that the server was last sent whole, with the patches since. @param {Page} page */
+export function sentScene(page) {
+  const all = sent(page);
+  const from = all.findLastIndex((message) => message.scene);
+  return all.slice(from).reduce((scene, { patch }) => (patch ? merged(scene, patch) : scene), all[from].scene);
+}
+
+/** RFC 7396. @param {any} held @param {any} patch @returns {any} */
+function merged(held, patch) {
+  if (patch === null || typeof patch !== 'object' || Array.isArray(patch)) return patch;
+  const entries = Object.entries({ ...held, ...patch }).filter(([key]) => patch[key] !== null);
+  return Object.fromEntries(entries.map(([key, value]) => [key, key in patch ? merged(held?.[key], patch[key]) : value]));
+}
+
 /** One server and one browser for the tests of a file. @param {string[]} [more] Further arguments of the server */
 export function useBrowser(more = []) {
   /** @type {import('playwright-core').Browser} */
@@ -47,6 +66,8 @@ export function useBrowser(more = []) {
     page.on('console', (message) => {
       if (['error', 'warning'].includes(message.type()) && !logs?.test(message.text())) faults.push(message.text());
     });
+    messages.set(page, []);
+    page.on('websocket', (socket) => socket.on('framesent', ({ payload }) => sent(page).push(JSON.parse(String(payload)))));
     page.on('request', (request) => {
       const { origin, protocol } = new URL(request.url());
       if (protocol.startsWith('http') && `${origin}/` !== server.url) faults.push(`a request to ${request.url()}`);

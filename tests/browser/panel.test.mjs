@@ -115,10 +115,10 @@ test('what the server refuses is said at the field, and the picture stays', () =
 test('what no field shows is said over the picture', () =>
   open(
     async (page) => {
-      assert.match((await page.locator('.toast.bad').textContent()) ?? '', /clouds/);
+      assert.match((await page.locator('.toast.bad').textContent()) ?? '', /rainbow/);
       assert.deepEqual(await sunAngles(page), { azimuth: 180, elevation: 35 });
     },
-    { hash: '#clouds.coverage=0.5&sun.position.azimuth_deg=20&sun.position.elevation_deg=5' },
+    { hash: '#rainbow.order=2&sun.position.azimuth_deg=20&sun.position.elevation_deg=5' },
   ));
 
 test('the address holds the scene: reload, back and forward', () =>
