@@ -8,6 +8,7 @@
     reason = "tests fail by panicking"
 )]
 
+mod cloud;
 mod depth;
 mod furnace;
 mod geometry;

@@ -1,0 +1,33 @@
+//! That no uniform goes without its test.
+
+use crate::shader;
+
+/// What the shaders bind as uniforms, so that a new one cannot go without a test.
+#[test]
+fn every_uniform_is_tested() {
+    let mut names = Vec::new();
+    let shaders = [
+        &shader::TRANSMITTANCE,
+        &shader::MULTI_SCATTERING,
+        &shader::SKY_VIEW,
+        &shader::AERIAL,
+        &shader::CLOUD_SHADOW,
+        &shader::CLOUD_VIEW,
+        &shader::SKY,
+        &shader::STARS,
+        &shader::EXPOSURE,
+        &shader::TONE,
+        &shader::PROBE,
+    ];
+    for shader in shaders {
+        let module = naga::front::wgsl::parse_str(shader.wgsl).unwrap();
+        for (_, variable) in module.global_variables.iter() {
+            if variable.space == naga::AddressSpace::Uniform {
+                names.push((shader.name, module.types[variable.ty].name.clone().unwrap()));
+            }
+        }
+    }
+    let expected = [("transmittance", "Air")];
+    let expected = expected.map(|(shader, name)| (shader, name.to_owned()));
+    assert_eq!(names, expected);
+}
