@@ -74,16 +74,20 @@ export function createPainter(store, stage, fair, open) {
   };
   const board = createBoard(raster, brush, changed);
 
-  /** What the server says of an act is said here. @param {() => Promise<void>} act */
+  /** What the server says against an act is said here; false where there was something. @param {() => Promise<void>} act */
   const attempt = async (act) => {
     settle();
     try {
       await act();
+      return true;
     } catch (cause) {
       complain(/** @type {Error} */ (cause));
+      return false;
     }
   };
-  const maps = createMaps(/** @type {HTMLSelectElement} */ (/** @type {unknown} */ (field('map'))), (chosen) => use(chosen));
+  const maps = createMaps(/** @type {HTMLSelectElement} */ (/** @type {unknown} */ (field('map'))), async (chosen) => {
+    if (await load(chosen)) use(chosen);
+  });
   const refresh = async () => {
     try {
       await maps.refresh();
