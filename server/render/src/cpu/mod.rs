@@ -3,6 +3,8 @@
 pub(crate) mod air;
 pub(crate) mod airglow;
 #[cfg(test)]
+pub(crate) mod cloud;
+#[cfg(test)]
 pub(crate) mod geometry;
 #[cfg(test)]
 pub(crate) mod moon;

@@ -68,6 +68,28 @@ fn tiles_leave_no_trace() {
     }
 }
 
+/// The clouds before a tile are a table of their own, of a ray to many pixels in a preview.
+#[test]
+fn tiles_leave_no_trace_in_clouds() {
+    let mut engine = engine();
+    let mut scene = Scene {
+        clouds: Some(welkin_scene::Clouds::default()),
+        ..Scene::default()
+    };
+    scene.camera.direction = Direction::angles(180.0, 15.0);
+    for quality in [Quality::Preview, Quality::Final] {
+        let mut order = order(scene.clone(), 64, 36, Output::Linear);
+        order.quality = quality;
+        let (whole, steps) = in_tiles(&mut engine, &order, 1 << 22);
+        assert_eq!(steps, 2, "the tables and one tile");
+        for pixels in [1 << 12, 1 << 10] {
+            let (tiled, steps) = in_tiles(&mut engine, &order, pixels);
+            assert!(steps > 2, "{steps}");
+            assert!(tiled.pixels == whole.pixels, "{quality:?} in {steps} tiles");
+        }
+    }
+}
+
 #[test]
 fn long_and_odd_frames_are_whole() {
     let mut engine = engine();

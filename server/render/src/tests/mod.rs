@@ -8,6 +8,7 @@
     reason = "tests fail by panicking"
 )]
 
+mod aerial;
 mod cloud;
 mod depth;
 mod furnace;

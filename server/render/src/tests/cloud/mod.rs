@@ -2,6 +2,8 @@
 //! against what can be known without computing it.
 
 mod cover;
+mod light;
+mod slab;
 
 use crate::{
     cloudscape::{CloudPasses, CloudTextures},

@@ -27,7 +27,49 @@ fn every_uniform_is_tested() {
             }
         }
     }
-    let expected = [("transmittance", "Air")];
+    let expected = [
+        ("transmittance", "Air"),
+        ("transmittance", "Integral"),
+        ("multi_scattering", "Air"),
+        ("multi_scattering", "Order"),
+        ("sky_view", "Air"),
+        ("sky_view", "Observer"),
+        ("aerial", "Air"),
+        ("aerial", "Observer"),
+        ("cloud_shadow", "CloudShade"),
+        ("cloud_shadow", "Shadow"),
+        ("cloud_shadow", "Clouds"),
+        ("cloud_view", "Camera"),
+        ("cloud_view", "Tile"),
+        ("cloud_view", "Observer"),
+        ("cloud_view", "View"),
+        ("cloud_view", "Air"),
+        ("cloud_view", "Clouds"),
+        ("cloud_view", "CloudShade"),
+        ("sky", "Air"),
+        ("sky", "View"),
+        ("sky", "Camera"),
+        ("sky", "Tile"),
+        ("sky", "Observer"),
+        ("sky", "Airglow"),
+        ("sky", "Moon"),
+        ("sky", "View"),
+        ("sky", "Tone"),
+        ("sky", "CloudShade"),
+        ("sky", "CloudFrame"),
+        ("stars", "Air"),
+        ("stars", "View"),
+        ("stars", "Stretch"),
+        ("exposure", "Meter"),
+        ("tone", "Tone"),
+        ("probe", "Air"),
+        ("probe", "View"),
+        ("probe", "Observer"),
+        ("probe", "Airglow"),
+        ("probe", "Moon"),
+        ("probe", "View"),
+        ("probe", "Observer"),
+    ];
     let expected = expected.map(|(shader, name)| (shader, name.to_owned()));
     assert_eq!(names, expected);
 }

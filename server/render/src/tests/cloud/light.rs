@@ -1,0 +1,251 @@
+//! Phase functions and source functions.
+
+use super::cloudy;
+use crate::{
+    cpu::{
+        cloud::{diffused, draine, henyey_greenstein, share_below, slab_transmission},
+        phase::rings,
+    },
+    gpu::Gpu,
+    shader,
+    tests::{engine, evaluate},
+    uniforms::{
+        Part,
+        clouds::{CloudsUniform, Sky},
+    },
+};
+use proptest::{
+    prelude::*,
+    test_runner::{Config, RngSeed, TestRunner},
+};
+use serde_json::{Value, json};
+
+fn uniform(clouds: Value) -> CloudsUniform {
+    let scene = cloudy(clouds);
+    Sky::new(&scene).unwrap().uniform(&scene, 1.0)
+}
+
+/// Statements that use nothing but the clouds' uniform.
+fn with(gpu: &Gpu, clouds: &CloudsUniform, statements: &str, rows: &[[f32; 8]]) -> Vec<[f32; 8]> {
+    let buffer = Part::new(clouds).upload(gpu, "clouds");
+    evaluate(
+        gpu,
+        &shader::CLOUD_VIEW,
+        statements,
+        rows,
+        &[(0, buffer.as_entire_binding())],
+    )
+}
+
+fn row(values: &[f64]) -> [f32; 8] {
+    std::array::from_fn(|i| values.get(i).map_or(0.0, |v| *v as f32))
+}
+
+#[test]
+fn the_lobes_are_their_twins() {
+    let mut rows = Vec::new();
+    for g in [-0.9, -0.25, 0.0, 0.5, 0.8, 0.97] {
+        for alpha in [0.0, 0.5, 1.0, 20.0] {
+            rows.extend([-1.0, -0.6, 0.0, 0.3, 0.9, 0.999].map(|cos| row(&[cos, g, alpha])));
+        }
+    }
+    let engine = engine();
+    let statement = "x = vec4f(henyey_greenstein(a.x, a.y), draine(a.x, a.y, a.z), 0.0, 0.0);";
+    let found = evaluate(&engine.gpu, &shader::CLOUD_VIEW, statement, &rows, &[]);
+    for (row, found) in rows.iter().zip(found) {
+        let [cos, g, alpha] = [row[0], row[1], row[2]].map(f64::from);
+        for (found, expected) in found
+            .iter()
+            .zip([henyey_greenstein(cos, g), draine(cos, g, alpha)])
+        {
+            // A few roundings of f32; near the peak of g = 0.97, 1 - cos of 1e-3 rounds at 6e-5.
+            let off = f64::from(*found) / expected - 1.0;
+            assert!(off.abs() < 1e-4, "{row:?}: {off}");
+        }
+    }
+}
+
+fn any_phase() -> impl Strategy<Value = Value> {
+    let lobes = (0.0..0.99_f64, -0.99..0.0_f64, 0.0..1.0_f64).prop_map(|(forward, backward, blend)| {
+        json!({"kind": "dual-henyey-greenstein", "forward": forward, "backward": backward, "blend": blend})
+    });
+    let droplets = (5e-6..5e-5_f64).prop_map(|d| json!({"kind": "droplets", "diameter_m": d}));
+    prop_oneof![lobes, droplets]
+}
+
+/// And its mean cosine is what the source functions take it for.
+#[test]
+fn every_phase_function_integrates_to_one() {
+    let config = Config {
+        cases: 24,
+        failure_persistence: None,
+        rng_seed: RngSeed::Fixed(7),
+        ..Config::default()
+    };
+    let engine = engine();
+    // Every seventh ring, so that those of either hemisphere are among them.
+    let nodes: Vec<_> = rings().step_by(7).map(|(cos, sr)| (cos, 7.0 * sr)).collect();
+    let rows: Vec<_> = nodes.iter().map(|(cos, _)| row(&[*cos])).collect();
+    let found = TestRunner::new(config).run(&any_phase(), |phase| {
+        let clouds = uniform(json!({ "phase": phase }));
+        let [forward, other, share, alpha] =
+            [clouds.forward, clouds.other, clouds.other_share, clouds.alpha].map(f64::from);
+        let twin =
+            |cos: f64| (1.0 - share) * henyey_greenstein(cos, forward) + share * draine(cos, other, alpha);
+        let found = with(&engine.gpu, &clouds, "x.x = cloud_phase(a.x);", &rows);
+        let (mut whole, mut cosine) = (0.0, 0.0);
+        for ((cos, sr), (row, found)) in nodes.iter().zip(rows.iter().zip(&found)) {
+            // The quadrature's own cosine: it lies between those of f32.
+            let value = f64::from(found[0]) * twin(*cos) / twin(f64::from(row[0]));
+            whole += sr * value;
+            cosine += sr * value * cos;
+        }
+        // What the product promises; the mean cosine as well.
+        prop_assert!((whole - 1.0).abs() < 1e-3, "{}", whole);
+        prop_assert!(
+            (cosine - f64::from(clouds.asymmetry)).abs() < 1e-3,
+            "{} {}",
+            cosine,
+            clouds.asymmetry
+        );
+        Ok(())
+    });
+    found.unwrap();
+}
+
+/// Even scattering, no absorption, no powder, and the first order of the forward light alone.
+fn plain() -> CloudsUniform {
+    CloudsUniform {
+        powder: 0.0,
+        octaves: 1,
+        albedo: glam::Vec3::ONE,
+        ..uniform(json!({"phase": {"kind": "dual-henyey-greenstein", "forward": 0, "backward": 0}}))
+    }
+}
+
+const DEPTHS: [f64; 6] = [0.0, 0.05, 0.4, 1.5, 6.0, 30.0];
+
+fn pairs() -> Vec<[f32; 8]> {
+    let pair = |a: f64| DEPTHS.map(|b| row(&[a, b]));
+    DEPTHS
+        .iter()
+        .flat_map(|a| pair(*a))
+        .filter(|row| row[0] + row[1] > 0.0)
+        .collect()
+}
+
+/// Diffusion solved by finite volumes, which share nothing with the shader's closed form.
+#[test]
+fn light_in_a_slab_is_the_solution_of_diffusion() {
+    let engine = engine();
+    let statement = "x = 4.0 * PI * vec4f(lit_source(0.3, a.x, a.y), ambient_source(a.x, a.y), 0.0, 0.0);";
+    let rows = pairs();
+    for (row, found) in rows.iter().zip(with(&engine.gpu, &plain(), statement, &rows)) {
+        let (before, behind) = (f64::from(row[0]), f64::from(row[1]));
+        let lit = (-before).exp() + diffused(before + behind, true, 0.0, before);
+        let even = diffused(before + behind, false, 1.0, before);
+        // The cells' size: values at the slab's edge stand half a cell inside, of U' = 3 F there.
+        let allowed = 2e-3 * (1.0 + before + behind);
+        assert!(
+            (f64::from(found[0]) - lit).abs() < allowed,
+            "{row:?}: lit {}, not {lit}",
+            found[0]
+        );
+        assert!(
+            (f64::from(found[1]) - even).abs() < allowed,
+            "{row:?}: even {}, not {even}",
+            found[1]
+        );
+    }
+}
+
+/// Even surroundings of irradiance 1 on both sides have radiance 1/π, and so has what scatters without absorbing among
+/// them: a furnace.
+#[test]
+fn a_cloud_in_a_furnace_is_as_bright_as_the_furnace() {
+    let engine = engine();
+    let rows = pairs();
+    for phase in [
+        json!({"kind": "dual-henyey-greenstein"}),
+        json!({"kind": "dual-henyey-greenstein", "forward": 0.95, "blend": 0}),
+        json!({"kind": "droplets"}),
+    ] {
+        let clouds = uniform(json!({"albedo": 1, "phase": phase}));
+        let statement = "x.x = PI * (ambient_source(a.x, a.y) + ambient_source(a.y, a.x));";
+        for (row, found) in rows.iter().zip(with(&engine.gpu, &clouds, statement, &rows)) {
+            // Roundings; the product promises 1 %.
+            assert!((found[0] - 1.0).abs() < 1e-5, "{phase} {row:?}: {}", found[0]);
+        }
+    }
+}
+
+/// A photon has to go somewhere: over all directions a thin cloud scatters what it takes, once.
+#[test]
+fn a_thin_cloud_scatters_what_it_takes() {
+    let engine = engine();
+    let nodes: Vec<_> = rings().step_by(7).map(|(cos, sr)| (cos, 7.0 * sr)).collect();
+    let rows: Vec<_> = nodes.iter().map(|(cos, _)| row(&[*cos, 1e-5, 1e-5])).collect();
+    for forward in [0.0, 0.5, 0.85] {
+        let clouds = uniform(json!({"albedo": 1, "powder": 0,
+            "phase": {"kind": "dual-henyey-greenstein", "forward": forward}}));
+        let found = with(&engine.gpu, &clouds, "x.x = lit_source(a.x, a.y, a.z);", &rows);
+        let sum: f64 = nodes
+            .iter()
+            .zip(found)
+            .map(|((_, sr), found)| sr * f64::from(found[0]))
+            .sum();
+        // Light that comes back from so thin a cloud is of the order of its depth.
+        assert!((sum - 1.0).abs() < 1e-3, "forward {forward}: {sum}");
+    }
+}
+
+#[test]
+fn what_a_slab_lets_through_is_its_twin_and_what_is_left_inside() {
+    let engine = engine();
+    let mut rows = Vec::new();
+    for g in [0.0, 0.5, 0.85] {
+        for mu in [0.05, 0.3, 0.7, 1.0] {
+            rows.extend(DEPTHS.map(|depth| row(&[g, mu, depth])));
+        }
+    }
+    let statement = "x.x = slab_transmission(a.x, a.y, a.z);";
+    let found = evaluate(&engine.gpu, &shader::SKY, statement, &rows, &[]);
+    for (row, found) in rows.iter().zip(found) {
+        let [g, mu, depth] = [row[0], row[1], row[2]].map(f64::from);
+        let expected = slab_transmission(g, mu, depth);
+        // A few roundings of f32.
+        assert!(
+            (f64::from(found[0]) - expected).abs() < 1e-5,
+            "{row:?}: {} {expected}",
+            found[0]
+        );
+        assert!((0.0..1.0 + 1e-6).contains(&found[0]), "{row:?}: {}", found[0]);
+        if mu == 1.0 && g == 0.0 && depth > 0.0 {
+            // Straight through, and half of U at the base.
+            let inside = (-depth).exp() + 0.5 * diffused(depth, true, 0.0, depth);
+            assert!((expected - inside).abs() < 3e-3, "{depth}: {expected}, {inside}");
+        }
+    }
+}
+
+#[test]
+fn the_sum_of_two_looks_is_spread_evenly() {
+    let engine = engine();
+    let rows: Vec<_> = (0..=27).map(|k| row(&[f64::from(k) * 0.05])).collect();
+    let found = evaluate(
+        &engine.gpu,
+        &shader::CLOUD_VIEW,
+        "x = vec4f(share_below(a.xxx), SECOND_WEIGHT);",
+        &rows,
+        &[],
+    );
+    for (row, found) in rows.iter().zip(found) {
+        let expected = share_below(f64::from(row[0]), f64::from(found[3]));
+        // The quadrature's steps.
+        assert!(
+            (f64::from(found[0]) - expected).abs() < 1e-4,
+            "{row:?}: {} {expected}",
+            found[0]
+        );
+    }
+}
