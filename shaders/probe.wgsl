@@ -1,6 +1,7 @@
 // Radiance, transmittance and distance at exact directions, integrated along each ray without the sky-view table.
 import package::lib::air::Air;
 import package::lib::airglow::{Airglow, airglow_radiance};
+import package::lib::cloud_shade::{CloudShade, ground_shaded};
 import package::lib::geometry::{PI, angle_between, distance_to_sphere};
 import package::lib::light::{UNSHADED, View, ground_radiance, scattered_radiance, sun_disc};
 import package::lib::moon::{Moon, moon_radiance, place_on_moon};
@@ -17,6 +18,18 @@ override NESTED: bool = false;
 // The moon's disc, and its light on air and ground.
 override MOON: bool = false;
 override MOONLIGHT: bool = false;
+// True where there are clouds.
+override CLOUDS: bool = false;
+
+// Where the clouds' shadows fall.
+struct CloudFrame {
+    // The observer's place in the scene.
+    place_m: vec3f,
+    // Of no meaning here.
+    fineness: f32,
+    // The light that casts them.
+    light: vec3f,
+}
 
 struct Answer {
     radiance: vec3f,
@@ -41,6 +54,11 @@ struct Answer {
 @group(0) @binding(11) var<uniform> moon_view: View;
 @group(0) @binding(12) var<uniform> moon_observer: Observer;
 @group(0) @binding(13) var moon_face: texture_2d<f32>;
+// What clouds add in R, G and B, and what they let through; one a direction.
+@group(0) @binding(14) var<storage, read> clouds_seen: array<vec4f>;
+@group(0) @binding(15) var<uniform> shade: CloudShade;
+@group(0) @binding(16) var shade_maps: texture_2d_array<f32>;
+@group(0) @binding(17) var<uniform> cloud_frame: CloudFrame;
 
 // A ray that nothing stops.
 const ENDLESS_M = 1e12;
@@ -77,8 +95,14 @@ fn probe(@builtin(global_invocation_id) id: vec3u) {
     var between = scattered_radiance(air, view, light, nu)
         + airglow_radiance(glow, air.radius_m, view.altitude_m, mu, select(ENDLESS_M, ground_m, ground), light.optical_depth);
     var behind = directions[id.x].w * discs(direction);
+    var shaded = UNSHADED;
+    if CLOUDS && ground {
+        let p = cloud_frame.place_m + ground_m * direction;
+        let mu_light = dot(normalize(p + vec3f(0.0, 0.0, air.radius_m)), cloud_frame.light);
+        shaded = ground_shaded(shade, shade_maps, linear_clamp, air.radius_m, p, cloud_frame.light, mu_light);
+    }
     if ground {
-        behind = ground_radiance(air, view, nu, ground_m, transmittance_table, irradiance_table, linear_clamp, UNSHADED)
+        behind = ground_radiance(air, view, nu, ground_m, transmittance_table, irradiance_table, linear_clamp, shaded)
             + air.ground_albedo / PI * glow.ground_irradiance;
     }
     if MOONLIGHT {
@@ -90,8 +114,15 @@ fn probe(@builtin(global_invocation_id) id: vec3u) {
             between += scattered_radiance(air, moon_view, scattered, nu_moon);
         }
         if ground {
-            behind += ground_radiance(air, moon_view, nu_moon, ground_m, transmittance_table, irradiance_table, linear_clamp, UNSHADED);
+            behind += ground_radiance(air, moon_view, nu_moon, ground_m, transmittance_table, irradiance_table, linear_clamp, shaded);
         }
     }
-    answers[id.x] = Answer(between + transmittance * behind, ground_m, transmittance);
+    var radiance = between + transmittance * behind;
+    var left = 1.0;
+    if CLOUDS {
+        let clouds = clouds_seen[id.x];
+        left = clouds.a;
+        radiance = max(left * radiance + clouds.rgb, vec3f(0.0));
+    }
+    answers[id.x] = Answer(radiance, ground_m, left * transmittance);
 }

@@ -7,7 +7,9 @@ use crate::{
     error::Error,
     gpu::{Gpu, Shape},
     kernel::{Bind, Recorder},
+    lights::Lights,
     memo::{Fingerprint, Memo},
+    night::Night,
     noise_cache::DiskCache,
     passes::{
         Table,
@@ -66,6 +68,15 @@ pub(crate) struct Cloudscape {
     made_from: Fingerprint,
 }
 
+/// A scene's cloud uniforms on the device.
+pub(crate) struct CloudParts {
+    pub(crate) clouds: wgpu::Buffer,
+    pub(crate) air: wgpu::Buffer,
+    pub(crate) view: wgpu::Buffer,
+    pub(crate) shade: wgpu::Buffer,
+    pub(crate) observer: wgpu::Buffer,
+}
+
 impl CloudTextures {
     pub(crate) fn fingerprint(&self) -> Fingerprint {
         let all = [
@@ -95,8 +106,33 @@ impl CloudTextures {
 }
 
 impl Cloudscape {
-    pub(crate) fn irradiance(&self) -> &wgpu::TextureView {
-        &self.multi_scattering.irradiance.view
+    /// What the march reads, on the device.
+    pub(crate) fn upload(&self, gpu: &Gpu) -> CloudParts {
+        CloudParts {
+            clouds: self.clouds.upload(gpu, "clouds"),
+            air: self.air.upload(gpu, "air"),
+            view: self.view.upload(gpu, "view"),
+            shade: self.shade.upload(gpu, "shade"),
+            observer: self.observer.upload(gpu, "observer"),
+        }
+    }
+
+    /// The first bindings of every shader that marches through clouds.
+    pub(crate) fn binds<'a>(&'a self, parts: &'a CloudParts) -> Vec<Bind<'a>> {
+        let mut binds = self.textures.binds(&parts.clouds);
+        binds.extend([
+            Bind::Buffer(&parts.air),
+            Bind::Buffer(&parts.view),
+            Bind::Buffer(&parts.shade),
+            Bind::LinearClamp,
+            Bind::Table(&self.transmittance.view),
+            Bind::Table(&self.multi_scattering.irradiance.view),
+            Bind::Table(&self.aerial.rayleigh),
+            Bind::Table(&self.aerial.mie),
+            Bind::Table(&self.aerial.multiple),
+            Bind::Table(&self.shadow.view),
+        ]);
+        binds
     }
 
     /// For a table of one ray to `grain` pixels' side.
@@ -117,6 +153,23 @@ impl Cloudscape {
 pub(crate) struct CloudLight<'a> {
     pub(crate) stand: Standpoint,
     pub(crate) view: &'a Part,
+}
+
+impl<'a> CloudLight<'a> {
+    /// The sun, or at night the moon.
+    pub(crate) fn new(stand: &Standpoint, night: &Night, lights: &'a Lights) -> Self {
+        let by_moon = night.moon.filter(|moon| moon.counts > 0.0 && stand.is_night());
+        by_moon.zip(lights.moon_view()).map_or(
+            Self {
+                stand: *stand,
+                view: lights.view(false),
+            },
+            |(moon, view)| Self {
+                stand: moon.stand(stand),
+                view,
+            },
+        )
+    }
 }
 
 /// Steps of a shadow's ray through a band.
@@ -205,8 +258,7 @@ impl CloudPasses {
         recorder: &mut Recorder<'_>,
         scene: &Scene,
         tables: &Tables,
-        textures: CloudTextures,
-        sky: &Sky<'_>,
+        (sky, textures): (&Sky<'_>, CloudTextures),
         light: CloudLight<'_>,
         quality: Quality,
     ) -> Cloudscape {

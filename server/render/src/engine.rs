@@ -17,7 +17,7 @@ use crate::{
         Table,
         exposure::{EXPOSURE_BYTES, ExposurePass, meter_size},
         multi_scattering::{MultiScattering, MultiScatteringPass, Wanted},
-        probe::{Probe, ProbeInputs, Seen, Sight},
+        probe::Probe,
         sky::{CloudInputs, Sky, SkyInputs, SkyTo},
         sky_view::SkyView,
         stars::{StarsInputs, StarsOut, StarsPass},
@@ -26,7 +26,7 @@ use crate::{
     },
     renderer::RendererSettings,
     screen::{PICTURE_BYTES, RADIANCE_BYTES, Screen},
-    sunlight::{direct_normal, moon_direct_normal},
+    sunlight::{DiscsLeft, direct_normal, moon_direct_normal},
     uniforms::{AirUniform, Part, Standpoint, TileUniform, ToneUniform, clouds, night::AirglowUniform},
 };
 use glam::UVec2;
@@ -35,6 +35,8 @@ use welkin_scene::{
     Exposure, Method, Quality, Scene,
     renderer::{FrameFacts, FrameOrder, Output, PassTime},
 };
+
+mod probe;
 
 /// The device with its passes. Fields drop in this order: what was made from the device goes before it.
 pub(crate) struct Engine {
@@ -75,6 +77,8 @@ pub(crate) struct Prepared {
     clouds: Option<Cloudscape>,
     exposure: Arc<wgpu::Buffer>,
     grain: u32,
+    /// What clouds leave of the light of sun and moon.
+    pub(crate) discs_left: DiscsLeft,
     /// The device that holds it.
     pub(crate) generation: u64,
 }
@@ -189,25 +193,12 @@ impl Engine {
                 }
             });
             let clouds = cloud_sky.zip(textures).map(|(sky, textures)| {
-                let by_moon = night
-                    .moon
-                    .filter(|moon| moon.counts > 0.0 && tables.stand.is_night());
-                let light = by_moon.zip(lights.moon_view()).map_or(
-                    CloudLight {
-                        stand: tables.stand,
-                        view: lights.view(false),
-                    },
-                    |(moon, view)| CloudLight {
-                        stand: moon.stand(&tables.stand),
-                        view,
-                    },
-                );
+                let light = CloudLight::new(&tables.stand, &night, &lights);
                 self.clouds.scape(
                     &mut recorder,
                     scene,
                     &tables,
-                    textures,
-                    &sky,
+                    (&sky, textures),
                     light,
                     order.quality,
                 )
@@ -234,6 +225,11 @@ impl Engine {
             };
             let camera = CameraUniform::new(&scene.camera, size_px);
             let ((), times) = recorder.finish(&[], |_| ())?;
+            let discs_left = clouds.as_ref().map_or(Ok(DiscsLeft::default()), |scape| {
+                self.probe
+                    .clouds
+                    .discs_left(gpu, scape, scene, &tables.stand, &night)
+            })?;
             let camera_part = Part::new(&camera);
             Ok((
                 Prepared {
@@ -247,6 +243,7 @@ impl Engine {
                     clouds,
                     exposure,
                     grain,
+                    discs_left,
                     generation: self.generation,
                 },
                 times,
@@ -339,33 +336,6 @@ impl Engine {
             Ok((taken, ev, times))
         })
     }
-
-    /// Answers at exact directions, at final quality.
-    pub(crate) fn probe(&mut self, scene: &Scene, sights: &[Sight]) -> Result<Vec<Seen>, Error> {
-        let gpu = &self.gpu;
-        gpu.guarded(|| {
-            let mut recorder = Recorder::new(gpu);
-            let passes = (&mut self.transmittance, &mut self.multi_scattering);
-            let tables = Self::tables(passes, &mut recorder, scene, Quality::Final);
-            recorder.finish(&[], |_| ())?;
-            let night = Night::new(scene, &tables.stand);
-            let glow = airglow(&mut self.night_light, scene, &tables);
-            let face = || moon_face(&self.moon_face, gpu);
-            let lights = Lights::new(scene, &tables.stand, night, glow, face, None);
-            let moon_stand = night.moon.map(|moon| moon.stand(&tables.stand));
-            let inputs = ProbeInputs {
-                air: &tables.air,
-                view: lights.view(false),
-                stand: &tables.stand,
-                plan: tables.plan,
-                transmittance: &tables.transmittance,
-                multi_scattering: &tables.multi_scattering,
-                airglow: lights.airglow(),
-                moon: lights.moon(false).zip(moon_stand),
-            };
-            self.probe.run(gpu, inputs, sights)
-        })
-    }
 }
 
 impl Prepared {
@@ -424,14 +394,14 @@ fn airglow(memo: &mut Memo<NightLight>, scene: &Scene, tables: &Tables) -> Part 
 }
 
 /// What a frame says of itself.
-pub(crate) fn facts(scene: &Scene, ev100: Option<f64>) -> FrameFacts {
+pub(crate) fn facts(scene: &Scene, left: DiscsLeft, ev100: Option<f64>) -> FrameFacts {
     let stand = Standpoint::new(scene);
     let night = Night::new(scene, &stand);
     FrameFacts {
         sun: scene.sun_place(),
-        sun_irradiance_w_m2: direct_normal(scene, &stand, &night),
+        sun_irradiance_w_m2: direct_normal(scene, &stand, &night).map(|e| left.sun * e),
         moon: scene.moon_place(),
-        moon_irradiance_w_m2: moon_direct_normal(scene, &stand, &night),
+        moon_irradiance_w_m2: moon_direct_normal(scene, &stand, &night).map(|e| left.moon * e),
         ev100,
     }
 }

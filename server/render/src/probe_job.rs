@@ -4,10 +4,10 @@ use crate::{
     engine::Engine,
     error::Error,
     night::Night,
-    passes::probe::{CHUNK, Seen, Sight},
-    quadrature::{Node, harmonics, sphere},
-    sunlight::{direct_normal, moon_direct_normal},
-    uniforms::Standpoint,
+    passes::probe::{CHUNK, CLOUDED_CHUNK, Seen, Sight},
+    quadrature::{CLEAR, CLOUDED, Node, harmonics, sphere},
+    sunlight::{DiscsLeft, direct_normal, moon_direct_normal},
+    uniforms::{Standpoint, clouds},
 };
 use glam::DVec3;
 use welkin_scene::{Irradiance, ProbeAnswer, renderer::ProbeOrder};
@@ -19,13 +19,20 @@ pub(crate) struct ProbeJob {
     nodes: Vec<Node>,
     sights: Vec<Sight>,
     seen: Vec<Seen>,
+    /// Directions in one piece of work.
+    chunk: usize,
 }
 
 impl ProbeJob {
     pub(crate) fn new(order: ProbeOrder) -> Self {
         let request = &order.request;
         let stand = Standpoint::new(&request.scene);
-        let nodes = sphere(&stand, request.scene.planet.radius_m);
+        let (fineness, chunk) = if clouds::Sky::new(&request.scene).is_some() {
+            (CLOUDED, CLOUDED_CHUNK)
+        } else {
+            (CLEAR, CHUNK)
+        };
+        let nodes = sphere(&stand, request.scene.planet.radius_m, fineness);
         let asked = request.directions.iter().map(|d| Sight {
             direction: DVec3::from_array(d.unit()),
             disc: true,
@@ -41,19 +48,21 @@ impl ProbeJob {
             nodes,
             sights,
             seen: Vec::new(),
+            chunk,
         }
     }
 
     /// Does the next piece of work, as long as a tile of a frame. The answer, once it is whole.
     pub(crate) fn step(&mut self, engine: &mut Engine) -> Result<Option<ProbeAnswer>, Error> {
         let from = self.seen.len();
-        let to = (from + CHUNK).min(self.sights.len());
-        self.seen
-            .extend(engine.probe(&self.order.request.scene, &self.sights[from..to])?);
-        Ok((to == self.sights.len()).then(|| self.answer()))
+        let to = (from + self.chunk).min(self.sights.len());
+        let (scene, assets) = (&self.order.request.scene, &self.order.assets);
+        let (seen, discs_left) = engine.probe(scene, assets, &self.sights[from..to])?;
+        self.seen.extend(seen);
+        Ok((to == self.sights.len()).then(|| self.answer(discs_left)))
     }
 
-    fn answer(&self) -> ProbeAnswer {
+    fn answer(&self, left: DiscsLeft) -> ProbeAnswer {
         let (asked, summed) = self.seen.split_at(self.order.request.directions.len());
         let mut diffuse_w_m2 = [0.0; 3];
         let mut sh9 = [[0.0; 3]; 9];
@@ -67,8 +76,9 @@ impl ProbeJob {
                 }
             }
         }
-        let night = Night::new(&self.order.request.scene, &self.stand);
-        let direct_normal_w_m2 = direct_normal(&self.order.request.scene, &self.stand, &night);
+        let scene = &self.order.request.scene;
+        let night = Night::new(scene, &self.stand);
+        let direct_normal_w_m2 = direct_normal(scene, &self.stand, &night).map(|e| left.sun * e);
         let falling = self.stand.up.dot(self.stand.sun).max(0.0);
         ProbeAnswer {
             radiance_w_m2_sr: asked.iter().map(|s| s.radiance).collect(),
@@ -77,12 +87,13 @@ impl ProbeJob {
             irradiance: Irradiance {
                 direct_w_m2: direct_normal_w_m2.map(|e| e * falling),
                 direct_normal_w_m2,
-                moon_direct_normal_w_m2: moon_direct_normal(&self.order.request.scene, &self.stand, &night),
+                moon_direct_normal_w_m2: moon_direct_normal(scene, &self.stand, &night)
+                    .map(|e| left.moon * e),
                 diffuse_w_m2,
                 sh9,
             },
-            sun: self.order.request.scene.sun_place(),
-            moon: self.order.request.scene.moon_place(),
+            sun: scene.sun_place(),
+            moon: scene.moon_place(),
         }
     }
 }

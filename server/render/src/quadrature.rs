@@ -11,8 +11,31 @@ pub(crate) struct Node {
     pub(crate) weight_sr: f64,
 }
 
-const POLAR: usize = 24;
-const AZIMUTHS: u32 = 64;
+/// How close the nodes stand.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Fineness {
+    /// Rings from the horizon to the zenith, to the nadir, and about the sun.
+    polar: usize,
+    /// Nodes of a ring.
+    azimuths: u32,
+    /// Turn of each ring against the one before it, in shares of the way between two nodes.
+    turn: f64,
+}
+
+/// For clear air, which is smooth.
+pub(crate) const CLEAR: Fineness = Fineness {
+    polar: 24,
+    azimuths: 64,
+    turn: 0.0,
+};
+
+/// For clouds, which have edges: as many again each way, and no two rings alike (the golden ratio).
+pub(crate) const CLOUDED: Fineness = Fineness {
+    polar: 32,
+    azimuths: 96,
+    turn: 0.618_033_988_749_895,
+};
+
 /// Half-angle of the cap about the sun that has its own nodes, for the aureole is narrower than the others are apart.
 const CAP_RAD: f64 = 0.6;
 
@@ -55,25 +78,34 @@ fn cap_share(angle: f64) -> f64 {
     x * x * x * (x * (6.0 * x - 15.0) + 10.0)
 }
 
+/// Cosine between the zenith and the horizon.
+pub(crate) fn horizon_cosine(stand: &Standpoint, radius_m: f64) -> f64 {
+    -(stand.altitude_m * (2.0 * radius_m + stand.altitude_m)).sqrt() / (radius_m + stand.altitude_m)
+}
+
 /// Nodes about the zenith, closer at the horizon, and nodes about the sun, closer at its centre; a smooth share
 /// divides the light between the two sets, so that neither sees an edge.
-pub(crate) fn sphere(stand: &Standpoint, radius_m: f64) -> Vec<Node> {
-    let r = radius_m + stand.altitude_m;
-    let horizon = -(stand.altitude_m * (2.0 * radius_m + stand.altitude_m)).sqrt() / r;
-    let gauss = gauss_legendre(POLAR);
+pub(crate) fn sphere(stand: &Standpoint, radius_m: f64, fineness: Fineness) -> Vec<Node> {
+    let horizon = horizon_cosine(stand, radius_m);
+    let gauss = gauss_legendre(fineness.polar);
+    let azimuths = f64::from(fineness.azimuths);
+    let mut rings = 0.0;
     let mut nodes = Vec::new();
-    let ring = |axis: DVec3, cos: f64, weight: f64, nodes: &mut Vec<Node>, share: &dyn Fn(DVec3) -> f64| {
-        let (a, b) = across(axis);
-        let sin = (1.0 - cos * cos).max(0.0).sqrt();
-        for k in 0..AZIMUTHS {
-            let (s, c) = (TAU * (f64::from(k) + 0.5) / f64::from(AZIMUTHS)).sin_cos();
-            let direction = axis * cos + (a * c + b * s) * sin;
-            nodes.push(Node {
-                direction,
-                weight_sr: weight / f64::from(AZIMUTHS) * share(direction),
-            });
-        }
-    };
+    let mut ring =
+        |axis: DVec3, cos: f64, weight: f64, nodes: &mut Vec<Node>, share: &dyn Fn(DVec3) -> f64| {
+            let (a, b) = across(axis);
+            let sin = (1.0 - cos * cos).max(0.0).sqrt();
+            let turned = 0.5 + (rings * fineness.turn).fract();
+            rings += 1.0;
+            for k in 0..fineness.azimuths {
+                let (s, c) = (TAU * (f64::from(k) + turned) / azimuths).sin_cos();
+                let direction = axis * cos + (a * c + b * s) * sin;
+                nodes.push(Node {
+                    direction,
+                    weight_sr: weight / azimuths * share(direction),
+                });
+            }
+        };
     let off_sun = |d: DVec3| 1.0 - cap_share(d.angle_between(stand.sun));
     for reach in [1.0 - horizon, -1.0 - horizon] {
         for (x, w) in &gauss {
@@ -130,9 +162,10 @@ mod tests {
 
     #[test]
     fn the_weights_cover_the_sphere() {
+        let suns = [DVec3::Z, DVec3::X, DVec3::new(0.3, -0.5, 0.1)];
         for altitude_m in [0.0, 2.0, 1e4, 4e5, 4e7] {
-            for sun in [DVec3::Z, DVec3::X, DVec3::new(0.3, -0.5, 0.1)] {
-                let total: f64 = sphere(&stand(altitude_m, sun), 6.36e6)
+            for (sun, fineness) in suns.into_iter().flat_map(|sun| [(sun, CLEAR), (sun, CLOUDED)]) {
+                let total: f64 = sphere(&stand(altitude_m, sun), 6.36e6, fineness)
                     .iter()
                     .map(|n| n.weight_sr)
                     .sum();
@@ -147,7 +180,7 @@ mod tests {
 
     #[test]
     fn harmonics_are_orthonormal() {
-        let nodes = sphere(&stand(0.0, DVec3::new(1.0, 1.0, 0.5)), 6.36e6);
+        let nodes = sphere(&stand(0.0, DVec3::new(1.0, 1.0, 0.5)), 6.36e6, CLEAR);
         for i in 0..9 {
             for j in 0..9 {
                 let dot: f64 = nodes

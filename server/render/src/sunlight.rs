@@ -1,11 +1,44 @@
 //! The sun's and the moon's own light at the observer.
 
-use crate::{cpu::air::transmittance_to_space, night::Night, uniforms::Standpoint};
+use crate::{
+    cpu::air::transmittance_to_space, night::Night, quadrature::horizon_cosine, uniforms::Standpoint,
+};
+use glam::DVec3;
 use std::f64::consts::PI;
 use welkin_scene::Scene;
 
 /// Strips across the disc, for a sun half below the horizon.
 const STRIPS: u32 = 9;
+/// Rays across a disc to see how much of it clouds hide.
+const DISC_RAYS: u32 = 32;
+
+/// Share of the light of sun and moon that clouds let through to the observer.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct DiscsLeft {
+    pub(crate) sun: f64,
+    pub(crate) moon: f64,
+}
+
+impl Default for DiscsLeft {
+    fn default() -> Self {
+        Self { sun: 1.0, moon: 1.0 }
+    }
+}
+
+/// Directions evenly across what the ground does not hide of a disc, on Vogel's spiral (1979); `stand` has the disc in
+/// the sun's place. As everywhere here, the disc is taken as even.
+pub(crate) fn across_disc(stand: &Standpoint, radius_m: f64, diameter_deg: f64) -> Vec<DVec3> {
+    let turn = PI * (3.0 - 5_f64.sqrt());
+    let (a, b) = stand.sun.any_orthonormal_pair();
+    let horizon = horizon_cosine(stand, radius_m);
+    let rays = (0..DISC_RAYS).map(|k| {
+        let rim = ((f64::from(k) + 0.5) / f64::from(DISC_RAYS)).sqrt();
+        let (sin, cos) = (rim * (diameter_deg / 2.0).to_radians()).sin_cos();
+        let (s, c) = (turn * f64::from(k)).sin_cos();
+        stand.sun * cos + (a * c + b * s) * sin
+    });
+    rays.filter(|ray| ray.dot(stand.up) > horizon).collect()
+}
 
 /// Irradiance from the disc on a plane that faces it, in R, G and B, W/m²: what the air and the horizon leave of it.
 /// The disc is taken as even; strips at heights cos φ have areas in proportion to sin²φ dφ.

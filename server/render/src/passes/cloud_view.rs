@@ -33,33 +33,18 @@ impl CloudView {
         let gpu = recorder.gpu;
         let size_px = tile.size_px.map(|side| side.div_ceil(grain));
         let view = gpu.written("cloud_view", [size_px.x, size_px.y, 1], Shape::Flat, Texel::Float);
-        let clouds = scape.clouds.upload(gpu, "clouds");
-        let (air, light) = (scape.air.upload(gpu, "air"), scape.view.upload(gpu, "view"));
-        let (shade, observer) = (
-            scape.shade.upload(gpu, "shade"),
-            scape.observer.upload(gpu, "observer"),
-        );
+        let parts = scape.upload(gpu);
         let place = Part::new(&CloudTileUniform {
             origin_px: tile.origin_px,
             size_px,
             grain,
         });
         let (camera, place) = (camera.upload(gpu, "camera"), place.upload(gpu, "tile"));
-        let mut binds = scape.textures.binds(&clouds);
+        let mut binds = scape.binds(&parts);
         binds.extend([
-            Bind::Buffer(&air),
-            Bind::Buffer(&light),
-            Bind::Buffer(&shade),
-            Bind::LinearClamp,
-            Bind::Table(&scape.transmittance.view),
-            Bind::Table(scape.irradiance()),
-            Bind::Table(&scape.aerial.rayleigh),
-            Bind::Table(&scape.aerial.mie),
-            Bind::Table(&scape.aerial.multiple),
-            Bind::Table(&scape.shadow.view),
             Bind::Buffer(&camera),
             Bind::Buffer(&place),
-            Bind::Buffer(&observer),
+            Bind::Buffer(&parts.observer),
             Bind::Table(&view),
         ]);
         let kernel = self.kernels.get(gpu, &[("PROJECTION", f64::from(projection))]);

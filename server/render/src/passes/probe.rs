@@ -1,22 +1,30 @@
 //! Radiance, transmittance and distance at exact directions.
 
-use super::{Table, multi_scattering::MultiScattering, sky::MoonInputs};
+use super::{Table, cloud_probe::CloudProbe, multi_scattering::MultiScattering, sky::MoonInputs};
 use crate::{
+    cloudscape::Cloudscape,
     error::Error,
     gpu::Gpu,
     kernel::{Bind, Recorder, Variants},
     method::Plan,
     shader,
-    uniforms::{Part, Standpoint, night::MoonUniform},
+    uniforms::{
+        Part, Standpoint,
+        clouds::{CloudFrameUniform, ShadeUniform},
+        night::MoonUniform,
+    },
 };
 use glam::DVec3;
 use welkin_scene::Method;
 
 /// Most directions in one dispatch: about as much work as one tile of a frame.
 pub(crate) const CHUNK: usize = 8192;
+/// The same through clouds.
+pub(crate) const CLOUDED_CHUNK: usize = 1024;
 
 pub(crate) struct Probe {
     kernels: Variants,
+    pub(crate) clouds: CloudProbe,
 }
 
 /// A direction to probe.
@@ -46,12 +54,14 @@ pub(crate) struct ProbeInputs<'a> {
     pub(crate) airglow: &'a Part,
     /// The moon, and the observer with it in the sun's place.
     pub(crate) moon: Option<(MoonInputs<'a>, Standpoint)>,
+    pub(crate) clouds: Option<&'a Cloudscape>,
 }
 
 impl Probe {
     pub(crate) fn new() -> Self {
         Self {
             kernels: Variants::new(&shader::PROBE),
+            clouds: CloudProbe::new(),
         }
     }
 
@@ -102,6 +112,20 @@ impl Probe {
         let moon_observer =
             Part::new(&moon_stand.observer(inputs.plan.probe_steps())).upload(gpu, "moon observer");
         let face = of_moon.map_or(&inputs.transmittance.view, |m| m.face);
+        let mut recorder = Recorder::new(gpu);
+        let threads = u32::try_from(packed.len()).unwrap_or(u32::MAX);
+        let clouds = inputs
+            .clouds
+            .map(|scape| self.clouds.run(&mut recorder, scape, &directions, threads));
+        let (shade, cloud_frame) = inputs.clouds.map_or_else(
+            || (Part::new(&ShadeUniform::default()), CloudFrameUniform::default()),
+            |scape| (scape.shade.clone(), scape.frame(1)),
+        );
+        let shade = shade.upload(gpu, "shade");
+        let cloud_frame = Part::new(&cloud_frame).upload(gpu, "cloud frame");
+        let shadow = inputs
+            .clouds
+            .map_or(&inputs.multi_scattering.source.view, |scape| &scape.shadow.view);
         let binds = [
             Bind::Buffer(&air),
             Bind::Buffer(&view),
@@ -117,9 +141,11 @@ impl Probe {
             Bind::Buffer(&moon_view),
             Bind::Buffer(&moon_observer),
             Bind::Table(face),
+            Bind::Buffer(clouds.as_ref().unwrap_or(&directions)),
+            Bind::Buffer(&shade),
+            Bind::Table(shadow),
+            Bind::Buffer(&cloud_frame),
         ];
-        let mut recorder = Recorder::new(gpu);
-        let threads = u32::try_from(packed.len()).unwrap_or(u32::MAX);
         let nested = inputs.plan.method == Method::Nested;
         let flag = |on: bool| f64::from(u8::from(on));
         let [multiple, haze] = inputs.plan.march_constants();
@@ -129,6 +155,7 @@ impl Probe {
             ("NESTED", flag(nested)),
             ("MOON", flag(of_moon.is_some())),
             ("MOONLIGHT", flag(of_moon.is_some_and(|m| m.lights))),
+            ("CLOUDS", flag(inputs.clouds.is_some())),
         ];
         let kernel = self.kernels.get(gpu, &constants);
         recorder.dispatch(kernel, &binds, [threads, 1, 1]);

@@ -3,7 +3,7 @@
 use super::engine;
 use crate::passes::probe::Sight;
 use glam::DVec3;
-use welkin_scene::{Atmosphere, Ozone, Scene, preset};
+use welkin_scene::{Atmosphere, Ozone, Scene, assets::SceneAssets, preset};
 
 /// ∫ of the tent max(0, 1 - |h - c|/w) from h = 0 up: zero under the layer, parabolas inside it.
 fn tent(ozone: &Ozone, h: f64) -> f64 {
@@ -89,7 +89,10 @@ fn the_vertical_optical_depth_is_the_closed_form() {
             direction: DVec3::Z,
             disc: false,
         };
-        let seen = engine.probe(&scene, &[zenith]).unwrap();
+        let seen = engine
+            .probe(&scene, &SceneAssets::default(), &[zenith])
+            .unwrap()
+            .0;
         let expected = closed_form(&air);
         for i in 0..3 {
             let depth = -seen[0].transmittance[i].ln();

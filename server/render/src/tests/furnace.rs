@@ -15,7 +15,7 @@ use crate::{
 };
 use glam::DVec3;
 use std::f64::consts::{PI, TAU};
-use welkin_scene::{Atmosphere, Bands, Direction, Mie, Planet, Scene, SunPosition};
+use welkin_scene::{Atmosphere, Bands, Direction, Mie, Planet, Scene, SunPosition, assets::SceneAssets};
 
 /// Air that takes nothing: aerosols without absorption, no ozone.
 fn conservative() -> Atmosphere {
@@ -321,7 +321,10 @@ fn a_white_planet_sends_back_what_it_receives() {
                     }
                 }
             }
-            let seen = engine().probe(&scene, &sights).unwrap();
+            let seen = engine()
+                .probe(&scene, &SceneAssets::default(), &sights)
+                .unwrap()
+                .0;
             for (seen, weight) in seen.iter().zip(&weights) {
                 for i in 0..3 {
                     sent[i] += ring_m2 * weight * seen.radiance[i];

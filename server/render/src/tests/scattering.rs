@@ -3,7 +3,7 @@
 use super::engine;
 use crate::{cpu::scattering::seen, passes::probe::Sight};
 use glam::DVec3;
-use welkin_scene::{Atmosphere, Direction, Orders, Planet, Scene, SunPosition};
+use welkin_scene::{Atmosphere, Direction, Orders, Planet, Scene, SunPosition, assets::SceneAssets};
 
 /// Directions from an altitude: up, along the horizon on both sides of it, down; towards the sun, across and away.
 fn directions(planet: &Planet, top_m: f64, altitude_m: f64) -> Vec<DVec3> {
@@ -58,7 +58,10 @@ fn worst(air: &Atmosphere, altitudes_m: &[f64], suns_deg: &[f64]) -> (f64, Strin
                     disc: false,
                 })
                 .collect();
-            let found = engine().probe(&scene, &sights).unwrap();
+            let found = engine()
+                .probe(&scene, &SceneAssets::default(), &sights)
+                .unwrap()
+                .0;
             for (view, found) in views.iter().zip(found) {
                 let expected = seen(&scene, *altitude_m, *view, sun);
                 for i in 0..3 {

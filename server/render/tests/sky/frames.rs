@@ -3,9 +3,9 @@
 use crate::{
     lens::{dot, sight},
     scenes::{probe, radiance, scene},
+    sums::sums,
 };
 use serde_json::{Value, json};
-use std::f64::consts::PI;
 use welkin_scene::{Direction, Quality, Scene};
 
 /// Angle of the horizon under the horizontal, degrees.
@@ -138,25 +138,7 @@ fn the_probes_sums_are_those_of_a_frame() {
             "sun": {"position": {"azimuth_deg": 100, "elevation_deg": sun_deg}, "disc": false},
         }));
         let answer = probe(&scene, &[]).irradiance;
-        let (width, height) = (512_u32, 256_u32);
-        let frame = radiance(&scene, width, height, Quality::Final);
-        let side = PI / f64::from(height);
-        let (mut diffuse, mut sh9) = ([0.0; 3], [[0.0; 3]; 9]);
-        for (x, y, light) in frame.pixels() {
-            let d = sight(
-                &scene.camera,
-                (f64::from(width), f64::from(height)),
-                (x as f64 + 0.5, y as f64 + 0.5),
-            );
-            let sr = side * side * (1.0 - d[2] * d[2]).sqrt();
-            let basis = harmonics(d);
-            for c in 0..3 {
-                diffuse[c] += light[c] * d[2].max(0.0) * sr;
-                for (sum, y) in sh9.iter_mut().zip(basis) {
-                    sum[c] += light[c] * y * sr;
-                }
-            }
-        }
+        let (diffuse, sh9) = sums(&scene, 512, 256);
         for c in 0..3 {
             // What the product promises; the frame's own sum over 2 m above the ground is good to 0.1 %.
             let off = answer.diffuse_w_m2[c] / diffuse[c] - 1.0;
@@ -167,22 +149,6 @@ fn the_probes_sums_are_those_of_a_frame() {
             }
         }
     }
-}
-
-/// Real orthonormal harmonics in the order that the probe states.
-fn harmonics([x, y, z]: [f64; 3]) -> [f64; 9] {
-    let (one, two) = ((3.0 / (4.0 * PI)).sqrt(), (15.0 / (4.0 * PI)).sqrt());
-    [
-        (0.25 / PI).sqrt(),
-        one * y,
-        one * z,
-        one * x,
-        two * x * y,
-        two * y * z,
-        (5.0 / (16.0 * PI)).sqrt() * (3.0 * z * z - 1.0),
-        two * x * z,
-        0.5 * two * (x * x - y * y),
-    ]
 }
 
 /// Pixels of a row share the light in the air where it runs evenly. The camera rolled by a quarter, rows are columns,

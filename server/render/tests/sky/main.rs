@@ -8,6 +8,7 @@
 )]
 
 mod air;
+mod cloud_probe;
 mod constants;
 mod disc;
 mod display;
@@ -22,3 +23,4 @@ mod orders;
 mod projections;
 mod queue;
 mod scenes;
+mod sums;

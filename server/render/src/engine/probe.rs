@@ -1,0 +1,70 @@
+//! What a probe asks of the passes.
+
+use super::{Engine, airglow, moon_face};
+use crate::{
+    cloudscape::CloudLight,
+    error::Error,
+    kernel::Recorder,
+    lights::Lights,
+    night::Night,
+    passes::probe::{ProbeInputs, Seen, Sight},
+    sunlight::DiscsLeft,
+    uniforms::clouds,
+};
+use welkin_scene::{Quality, Scene, assets::SceneAssets};
+
+impl Engine {
+    /// Answers at exact directions, at final quality, and what clouds leave of the light of sun and moon.
+    pub(crate) fn probe(
+        &mut self,
+        scene: &Scene,
+        assets: &SceneAssets,
+        sights: &[Sight],
+    ) -> Result<(Vec<Seen>, DiscsLeft), Error> {
+        let gpu = &self.gpu;
+        gpu.guarded(|| {
+            let cloud_sky = clouds::Sky::new(scene);
+            let textures = cloud_sky
+                .as_ref()
+                .map(|sky| self.clouds.textures(gpu, sky.clouds, assets))
+                .transpose()?;
+            let mut recorder = Recorder::new(gpu);
+            let passes = (&mut self.transmittance, &mut self.multi_scattering);
+            let tables = Self::tables(passes, &mut recorder, scene, Quality::Final);
+            let night = Night::new(scene, &tables.stand);
+            let glow = airglow(&mut self.night_light, scene, &tables);
+            let face = || moon_face(&self.moon_face, gpu);
+            let lights = Lights::new(scene, &tables.stand, night, glow, face, None);
+            let clouds = cloud_sky.zip(textures).map(|(sky, textures)| {
+                let light = CloudLight::new(&tables.stand, &night, &lights);
+                self.clouds.scape(
+                    &mut recorder,
+                    scene,
+                    &tables,
+                    (&sky, textures),
+                    light,
+                    Quality::Final,
+                )
+            });
+            recorder.finish(&[], |_| ())?;
+            let discs_left = clouds.as_ref().map_or(Ok(DiscsLeft::default()), |scape| {
+                self.probe
+                    .clouds
+                    .discs_left(gpu, scape, scene, &tables.stand, &night)
+            })?;
+            let moon_stand = night.moon.map(|moon| moon.stand(&tables.stand));
+            let inputs = ProbeInputs {
+                air: &tables.air,
+                view: lights.view(false),
+                stand: &tables.stand,
+                plan: tables.plan,
+                transmittance: &tables.transmittance,
+                multi_scattering: &tables.multi_scattering,
+                airglow: lights.airglow(),
+                moon: lights.moon(false).zip(moon_stand),
+                clouds: clouds.as_ref(),
+            };
+            Ok((self.probe.run(gpu, inputs, sights)?, discs_left))
+        })
+    }
+}
