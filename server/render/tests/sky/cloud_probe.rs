@@ -161,14 +161,16 @@ fn a_storm_lets_none_of_the_suns_own_light_through() {
 /// of itself.
 #[test]
 fn clouds_dim_the_light_of_the_discs() {
+    let veil =
+        json!({"layers": [{"kind": "sheet", "height_m": 8000, "genus": "cirrostratus", "coverage": 1}]});
     let towards = [Direction::angles(100.0, 40.0)];
     let sunlit = |clouds: Value| cloudy(clouds, 2.0, 40.0);
     for scene in [sunlit, moonlit] {
         let (clear, dim) = (
             probe(&scene(json!(null)), &towards),
-            probe(&scene(cirrus()), &towards),
+            probe(&scene(veil.clone()), &towards),
         );
-        let facts = frame(order(scene(cirrus()), 8, 8, Quality::Final, Output::Linear)).facts;
+        let facts = frame(order(scene(veil.clone()), 8, 8, Quality::Final, Output::Linear)).facts;
         assert_eq!(facts.sun_irradiance_w_m2, dim.irradiance.direct_normal_w_m2);
         assert_eq!(facts.moon_irradiance_w_m2, dim.irradiance.moon_direct_normal_w_m2);
         let direct = |answer: &welkin_scene::ProbeAnswer| {
@@ -177,7 +179,7 @@ fn clouds_dim_the_light_of_the_discs() {
         let left = direct(&dim) / direct(&clear);
         let at_centre = dim.transmittance[0][1] / clear.transmittance[0][1];
         assert!(left < 0.98, "{left}: nothing is before the disc");
-        // Half a degree is 120 m of a sheet at 8 km and 40°, whose fibres are kilometres long.
+        // Half a degree is 120 m of a sheet at 8 km and 40°, whose waves are kilometres long.
         assert!((left / at_centre - 1.0).abs() < 0.02, "{left} for {at_centre}");
     }
 }
