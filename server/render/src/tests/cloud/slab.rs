@@ -30,8 +30,7 @@ fn look(gpu: &Gpu, scene: &Scene, size_px: UVec2) -> Vec<[f32; 4]> {
         &mut recorder,
         scene,
         &tables,
-        textures,
-        &sky,
+        (&sky, textures),
         light,
         Quality::Final,
     );
