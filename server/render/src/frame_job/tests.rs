@@ -77,6 +77,7 @@ fn tiles_leave_no_trace_in_clouds() {
         ..Scene::default()
     };
     scene.camera.direction = Direction::angles(180.0, 15.0);
+    let mut traces = Vec::new();
     for quality in [Quality::Preview, Quality::Final] {
         let mut order = order(scene.clone(), 64, 36, Output::Linear);
         order.quality = quality;
@@ -85,9 +86,12 @@ fn tiles_leave_no_trace_in_clouds() {
         for pixels in [1 << 12, 1 << 10] {
             let (tiled, steps) = in_tiles(&mut engine, &order, pixels);
             assert!(steps > 2, "{steps}");
-            assert!(tiled.pixels == whole.pixels, "{quality:?} in {steps} tiles");
+            if tiled.pixels != whole.pixels {
+                traces.push(format!("{quality:?} in {steps} pieces"));
+            }
         }
     }
+    assert!(traces.is_empty(), "{traces:?}");
 }
 
 #[test]

@@ -148,3 +148,17 @@ fn a_blend_goes_from_one_map_to_the_other() {
     );
     assert!(middle.apart(&first) > 0.02 && middle.apart(&last) > 0.02);
 }
+
+/// Clouds that the weather keeps away darken nothing.
+#[test]
+fn an_empty_map_casts_no_shadow() {
+    let empty = clouds(json!({
+        "shadows": true,
+        "layers": [volume()],
+        "weather_map": {"kind": "uniform", "coverage": 0, "type": 0.5},
+    }));
+    let found = seen(&empty).apart(&seen(&clear()));
+    println!("empty map: {found}");
+    // A preview's own error in the air.
+    assert!(found < 0.01, "{found}");
+}

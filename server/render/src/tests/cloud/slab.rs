@@ -68,7 +68,7 @@ fn an_even_slab_transmits_by_beers_law() {
     let size = UVec2::new(16, 16);
     let straight = |z: f64, elevation_deg: f64| {
         json!({"position_m": [0, 0, z], "direction": {"azimuth_deg": 0, "elevation_deg": elevation_deg},
-               "projection": {"kind": "perspective", "vertical_fov_deg": 0.5}})
+               "projection": {"kind": "perspective", "vertical_fov_deg": 0.1}})
     };
     let mut faults = Vec::new();
     for (camera, way_m) in [
@@ -87,9 +87,9 @@ fn an_even_slab_transmits_by_beers_law() {
                 .map(|texel| (f64::from(texel[3]) / expected - 1.0).abs())
                 .fold(0.0, f64::max);
             println!("{camera} {extinction_per_m}: {worst:.2e}");
-            // What the product promises; half a degree of view changes the slanting way by 0.5 %.
+            // What the product promises; a tenth of a degree of view changes the slanting way by 0.2 %.
             let allowed = if way_m > 1500.0 {
-                1e-3 + 8e-3 * extinction_per_m * way_m
+                1e-3 + 2e-3 * extinction_per_m * way_m
             } else {
                 1e-3
             };
