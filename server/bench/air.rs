@@ -41,10 +41,6 @@ impl Case for Air {
         "air"
     }
 
-    fn baseline(&self) -> Option<&'static str> {
-        None
-    }
-
     fn setups(&self, sizes: Option<&[Size]>) -> Vec<Setup> {
         let mut setups = Vec::new();
         for size in sizes.unwrap_or(&SIZES) {

@@ -6,6 +6,9 @@
 
 mod air;
 mod baseline;
+mod clouds;
+mod page;
+mod plots;
 mod process;
 mod report;
 mod rounds;
@@ -15,6 +18,7 @@ mod stopwatch;
 mod table;
 mod viewer;
 
+pub(crate) use page::page;
 pub(crate) use process::Device;
 pub(crate) use report::Report;
 pub(crate) use rounds::{Plan, measure, run};
@@ -22,19 +26,37 @@ pub(crate) use setup::{Setup, Size};
 
 use crate::{commands::Failure, settings::Settings};
 use serde::{Deserialize, Serialize};
+use serde_json::{Map, Value};
 use stopwatch::Spent;
 use welkin_scene::renderer::{DeviceInfo, PassTime};
 
 /// All cases.
-pub(crate) static CASES: [&dyn Case; 2] = [&sky::Sky, &air::Air];
+pub(crate) static CASES: [&dyn Case; 3] = [&sky::Sky, &air::Air, &clouds::CloudCase];
 
 /// Something to measure.
 pub(crate) trait Case: Sync {
     /// As the command line and the rows name it.
     fn name(&self) -> &'static str;
 
-    /// What `run.py` of the baseline calls the like of it, where there is one.
-    fn baseline(&self) -> Option<&'static str>;
+    /// How often its setups are measured where nobody says.
+    fn rounds(&self) -> u32 {
+        7
+    }
+
+    /// Whether another round can tell more of a setup.
+    fn repeats(&self, _setup: &Setup) -> bool {
+        true
+    }
+
+    /// What `run.py` of the baseline calls the like of a setup.
+    fn baselines(&self, _setup: &Setup) -> &'static [&'static str] {
+        &[]
+    }
+
+    /// How many times less processor time than a frame of a baseline a piece of work should take.
+    fn target(&self, _setup: &Setup, _work: &str, _baseline: &str) -> Option<f64> {
+        None
+    }
 
     /// What is measured, setups of one size side by side. `sizes` are those asked for; without them, the case's own.
     fn setups(&self, sizes: Option<&[Size]>) -> Vec<Setup>;
@@ -68,6 +90,9 @@ pub(crate) struct Account {
 pub(crate) struct Work {
     /// What was done.
     pub(crate) work: String,
+    /// What is varied from one piece of work to the next, where it is the same otherwise.
+    #[serde(default)]
+    pub(crate) varied: Map<String, Value>,
     /// Its time.
     #[serde(flatten)]
     pub(crate) spent: Spent,
@@ -75,6 +100,8 @@ pub(crate) struct Work {
     pub(crate) passes: Vec<Pass>,
     /// How far the result is from the reference, in the measure that the case defines.
     pub(crate) error: Option<f64>,
+    /// Mean FLIP error of the picture against that of the reference.
+    pub(crate) flip: Option<f64>,
     /// What is wrong with it, where it broke a promise.
     pub(crate) fault: Option<String>,
 }

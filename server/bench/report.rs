@@ -3,6 +3,7 @@
 use super::{Device, Pass, Setup, baseline::Baseline, rounds::Measurements, stopwatch::Spent};
 use crate::commands::{Failure, build};
 use serde::Serialize;
+use serde_json::{Map, Value};
 
 /// The answer of `welkin bench`.
 #[derive(Debug, Serialize)]
@@ -14,8 +15,6 @@ pub(crate) struct Report {
     pub(crate) device: Device,
     /// Processor cores that the program may use.
     pub(crate) cores: usize,
-    /// Of how many runs each figure is the median.
-    pub(crate) rounds: u32,
     /// What the baseline rendered with; null where it was not there.
     pub(crate) baseline: Option<BaselineDevice>,
     /// Why there is no baseline.
@@ -43,6 +42,11 @@ pub(crate) struct Row {
     pub(crate) setup: Setup,
     /// What was done.
     pub(crate) work: String,
+    /// What was varied from one piece of work to the next.
+    #[serde(skip_serializing_if = "Map::is_empty")]
+    pub(crate) varied: Map<String, Value>,
+    /// Of how many runs the figures are medians.
+    pub(crate) rounds: usize,
     /// Medians.
     #[serde(flatten)]
     pub(crate) spent: Spent,
@@ -53,12 +57,14 @@ pub(crate) struct Row {
     pub(crate) speedup: Option<Speedup>,
     /// As the case defines it.
     pub(crate) error: Option<f64>,
+    /// Mean FLIP error of the picture, where the case takes it.
+    pub(crate) flip: Option<f64>,
     /// The passes that ran, each with its median.
     pub(crate) passes: Vec<Pass>,
     /// The most that a process of this setup held at once; the largest of the rounds.
     pub(crate) peak_memory_bytes: Option<u64>,
-    /// A frame of the baseline, for work that rendered.
-    pub(crate) baseline: Option<BaselineRow>,
+    /// Frames of the baselines, for work that rendered.
+    pub(crate) baselines: Vec<BaselineRow>,
 }
 
 /// How many times faster than another setup of the same case.
@@ -82,10 +88,40 @@ pub(crate) struct BaselineRow {
     pub(crate) wall_ratio: f64,
     /// Its median over ours, time of all threads.
     pub(crate) cpu_ratio: Option<f64>,
+    /// What `cpu_ratio` should be at least.
+    pub(crate) target_cpu_ratio: Option<f64>,
+}
+
+impl BaselineRow {
+    /// Whether the work takes more than its target allows.
+    pub(super) fn misses(&self) -> bool {
+        self.target_cpu_ratio
+            .zip(self.cpu_ratio)
+            .is_some_and(|(target, ratio)| ratio < target)
+    }
 }
 
 impl Report {
-    pub(super) fn new(rounds: u32, all: &[Measurements], baseline: &Baseline) -> Result<Self, Failure> {
+    /// What stands above the rows for people.
+    pub(super) fn head(&self) -> Vec<String> {
+        let device = &self.device;
+        let mut lines = vec![
+            format!(
+                "Welkin {} on {} ({}, {})",
+                self.build, device.adapter, device.kind, device.driver
+            ),
+            format!("cores: {}; figures are medians over the rounds", self.cores),
+        ];
+        lines.extend(self.baseline.as_ref().map(|baseline| {
+            format!(
+                "baselines on {}: their CPU time over ours, and in brackets what it should be",
+                baseline.renderer
+            )
+        }));
+        lines
+    }
+
+    pub(super) fn new(all: &[Measurements], baseline: &Baseline) -> Result<Self, Failure> {
         let first = all.iter().find_map(|one| one.runs.first());
         let device = first
             .ok_or_else(|| Failure::Bench("nothing was measured".to_owned()))?
@@ -95,7 +131,7 @@ impl Report {
             Baseline::At(_) => None,
             Baseline::Absent(reason) => Some(reason.clone()),
         };
-        let measured = all.iter().find_map(|one| one.baseline.first());
+        let measured = all.iter().find_map(|one| one.baselines.values().flatten().next());
         let renderer = measured
             .filter(|_| baseline_absent.is_none())
             .map(|one| one.renderer.clone());
@@ -105,13 +141,12 @@ impl Report {
             row.speedup = speedup;
         }
         if baseline_absent.is_some() {
-            rows.iter_mut().for_each(|row| row.baseline = None);
+            rows.iter_mut().for_each(|row| row.baselines.clear());
         }
         Ok(Self {
             build: build(),
             device,
             cores: std::thread::available_parallelism().map_or(1, usize::from),
-            rounds,
             baseline: renderer.map(|renderer| BaselineDevice { renderer }),
             baseline_absent,
             faults: all.iter().flat_map(faults).collect(),
@@ -160,35 +195,45 @@ fn row(one: &Measurements, at: usize) -> Option<Row> {
         let times = all.filter(|other| other.pass == pass.pass).map(|other| other.ms);
         pass.ms = median(times).map(whole_us)?;
     }
-    let baseline = one
-        .case
-        .baseline()
-        .filter(|_| !passes.is_empty())
-        .and_then(|case| {
-            let wall_ms = median(one.baseline.iter().map(|measured| measured.wall_ms))?;
-            let cpu_ms = median(one.baseline.iter().map(|measured| measured.cpu_ms))?;
-            Some(BaselineRow {
-                case,
-                spent: Spent {
-                    wall_ms,
-                    cpu_ms: Some(cpu_ms),
-                },
-                wall_ratio: wall_ms / spent.wall_ms,
-                cpu_ratio: spent.cpu_ms.map(|own| cpu_ms / own),
-            })
-        });
+    let baselines = if passes.is_empty() {
+        Vec::new()
+    } else {
+        baseline_rows(one, &works.first()?.work, spent)
+    };
     Some(Row {
         case: one.case.name(),
         setup: one.setup.clone(),
         work: works.first()?.work.clone(),
+        varied: works.first()?.varied.clone(),
+        rounds: works.len(),
         spent,
         slower: one.case.slower(&one.setup),
         speedup: None,
         error: median(works.iter().filter_map(|work| work.error)),
+        flip: median(works.iter().filter_map(|work| work.flip)),
         passes,
         peak_memory_bytes: one.runs.iter().filter_map(|run| run.peak_memory_bytes).max(),
-        baseline,
+        baselines,
     })
+}
+
+/// What the baselines cost beside one piece of work.
+fn baseline_rows(one: &Measurements, work: &str, own: Spent) -> Vec<BaselineRow> {
+    let rows = one.baselines.iter().filter_map(|(case, measured)| {
+        let wall_ms = median(measured.iter().map(|measured| measured.wall_ms))?;
+        let cpu_ms = median(measured.iter().map(|measured| measured.cpu_ms))?;
+        Some(BaselineRow {
+            case,
+            spent: Spent {
+                wall_ms,
+                cpu_ms: Some(cpu_ms),
+            },
+            wall_ratio: wall_ms / own.wall_ms,
+            cpu_ratio: own.cpu_ms.map(|own| cpu_ms / own),
+            target_cpu_ratio: one.case.target(&one.setup, work, case),
+        })
+    });
+    rows.collect()
 }
 
 /// Each broken promise once, however many rounds broke it.

@@ -8,7 +8,10 @@ use super::{
 use crate::{commands::Failure, settings::Settings};
 use indicatif::{ProgressBar, ProgressStyle};
 use serde_json::Value;
-use std::path::{Path, PathBuf};
+use std::{
+    collections::{BTreeMap, BTreeSet},
+    path::{Path, PathBuf},
+};
 
 /// What to measure.
 pub(crate) struct Plan<'a> {
@@ -16,8 +19,8 @@ pub(crate) struct Plan<'a> {
     pub(crate) cases: Vec<&'static dyn Case>,
     /// Sizes instead of the cases' own.
     pub(crate) sizes: Option<&'a [Size]>,
-    /// How often.
-    pub(crate) rounds: u32,
+    /// How often, instead of the cases' own.
+    pub(crate) rounds: Option<u32>,
     /// The baseline's folder.
     pub(crate) baseline: PathBuf,
     /// Which device.
@@ -31,7 +34,8 @@ pub(super) struct Measurements {
     pub(super) case: &'static dyn Case,
     pub(super) setup: Setup,
     pub(super) runs: Vec<Run>,
-    pub(super) baseline: Vec<Measured>,
+    /// Frames of the baselines at the same size, by the name of the baseline.
+    pub(super) baselines: BTreeMap<&'static str, Vec<Measured>>,
 }
 
 /// Measures one setup in this process: what [`run`] starts others for.
@@ -53,34 +57,52 @@ pub(crate) fn run(plan: &Plan<'_>) -> Result<Report, Failure> {
             case: *case,
             setup,
             runs: Vec::new(),
-            baseline: Vec::new(),
+            baselines: BTreeMap::new(),
         }));
     }
     let mut baseline = Baseline::in_folder(plan.baseline.clone());
-    let bar = progress(u64::from(plan.rounds) * all.len() as u64);
-    for _ in 0..plan.rounds {
+    let rounds = |one: &Measurements| {
+        let rounds = plan.rounds.unwrap_or_else(|| one.case.rounds());
+        if one.case.repeats(&one.setup) { rounds } else { 1 }
+    };
+    let bar = progress(all.iter().map(|one| u64::from(rounds(one))).sum());
+    for round in 0..all.iter().map(rounds).max().unwrap_or(0) {
         let alike = |a: &Measurements, b: &Measurements| {
             a.case.name() == b.case.name() && a.setup.size == b.setup.size
         };
         for group in all.chunk_by_mut(alike) {
-            for one in group.iter_mut() {
+            for one in group.iter_mut().filter(|one| round < rounds(one)) {
                 bar.set_message(describe(one));
                 let run = process::start(one.case, &one.setup, plan.settings, plan.config)?;
                 bar.suspend(|| eprint!("{}", run.warnings));
                 one.runs.push(run);
                 bar.inc(1);
             }
-            // Once for all setups of a size: the baseline knows nothing but sizes.
-            let (case, size) = (group[0].case, group[0].setup.size);
-            if let Some(measured) = case.baseline().and_then(|name| baseline.measure(name, size)) {
-                for one in group {
-                    one.baseline.push(measured.clone());
-                }
+            if group.iter().any(|one| round < rounds(one)) {
+                measure_baselines(&mut baseline, group);
             }
         }
     }
     bar.finish_and_clear();
-    Report::new(plan.rounds, &all, &baseline)
+    Report::new(&all, &baseline)
+}
+
+/// Each once for all setups of a size: the baseline knows nothing but sizes.
+fn measure_baselines(baseline: &mut Baseline, group: &mut [Measurements]) {
+    let wanted: BTreeSet<_> = group
+        .iter()
+        .flat_map(|one| one.case.baselines(&one.setup))
+        .copied()
+        .collect();
+    for name in wanted {
+        if let Some(measured) = baseline.measure(name, group[0].setup.size) {
+            for one in group.iter_mut() {
+                if one.case.baselines(&one.setup).contains(&name) {
+                    one.baselines.entry(name).or_default().push(measured.clone());
+                }
+            }
+        }
+    }
 }
 
 fn describe(one: &Measurements) -> String {

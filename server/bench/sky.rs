@@ -27,8 +27,8 @@ impl Case for Sky {
         "sky"
     }
 
-    fn baseline(&self) -> Option<&'static str> {
-        Some("horizon-sky")
+    fn baselines(&self, _setup: &Setup) -> &'static [&'static str] {
+        &["horizon-sky"]
     }
 
     fn setups(&self, sizes: Option<&[Size]>) -> Vec<Setup> {
@@ -137,9 +137,11 @@ fn encoding(work: &str, frame: &Frame, format: Format) -> Result<Work, Failure> 
     drop(file);
     Ok(Work {
         work: work.to_owned(),
+        varied: Map::new(),
         spent,
         passes: Vec::new(),
         error: None,
+        flip: None,
         fault: None,
     })
 }

@@ -4,7 +4,7 @@ use super::report::{Report, Row};
 use serde_json::Value;
 use std::fmt;
 
-const HEAD: [&str; 10] = [
+pub(super) const HEAD: [&str; 12] = [
     "case",
     "size",
     "setup",
@@ -12,28 +12,19 @@ const HEAD: [&str; 10] = [
     "wall ms",
     "CPU ms",
     "faster",
-    "baseline",
+    "baselines",
     "error",
+    "FLIP",
+    "rounds",
     "passes, ms",
 ];
 /// Columns of figures, which are set to the right.
-const FIGURES: std::ops::Range<usize> = 4..9;
+pub(super) const FIGURES: std::ops::Range<usize> = 4..11;
 
 impl fmt::Display for Report {
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let device = &self.device;
-        writeln!(
-            out,
-            "Welkin {} on {} ({}, {})",
-            self.build, device.adapter, device.kind, device.driver
-        )?;
-        writeln!(
-            out,
-            "cores: {}; rounds: {}, of which the figures are medians",
-            self.cores, self.rounds
-        )?;
-        if let Some(baseline) = &self.baseline {
-            writeln!(out, "baseline on {}: its CPU time over ours", baseline.renderer)?;
+        for line in self.head() {
+            writeln!(out, "{line}")?;
         }
         writeln!(out)?;
         let mut lines = vec![HEAD.map(str::to_owned)];
@@ -73,7 +64,8 @@ impl fmt::Display for Report {
     }
 }
 
-fn cells(row: &Row) -> [String; HEAD.len()] {
+/// What stands in a row, column by column.
+pub(super) fn cells(row: &Row) -> [String; HEAD.len()] {
     let size = row.setup.size;
     let parameters = row.setup.parameters.values().map(|value| match value {
         Value::String(text) => text.clone(),
@@ -89,17 +81,29 @@ fn cells(row: &Row) -> [String; HEAD.len()] {
             .map_or_else(String::new, |ratio| format!(" / {ratio:.1}x"));
         format!("{:.1}x{cpu}", speedup.wall_ratio)
     });
-    let ratio = row.baseline.as_ref().and_then(|baseline| baseline.cpu_ratio);
+    let baselines = row.baselines.iter().filter_map(|baseline| {
+        let target = baseline
+            .target_cpu_ratio
+            .map_or_else(String::new, |target| format!(" (≥{target}x)"));
+        Some(format!("{} {:.1}x{target}", baseline.case, baseline.cpu_ratio?))
+    });
+    let varied = row.varied.iter().map(|(name, value)| {
+        let value = value.as_f64().unwrap_or(f64::NAN);
+        // Three places, without those that say nothing.
+        format!(" {name} {}", (1e3 * value).round() / 1e3)
+    });
     [
         row.case.to_owned(),
         format!("{}x{}", size.width_px, size.height_px),
         parameters.collect::<Vec<_>>().join(" "),
-        row.work.clone(),
+        format!("{}{}", row.work, varied.collect::<String>()),
         format!("{:.1}", row.spent.wall_ms),
         row.spent.cpu_ms.map_or_else(String::new, |ms| format!("{ms:.1}")),
         faster,
-        ratio.map_or_else(String::new, |ratio| format!("{ratio:.1}x")),
+        baselines.collect::<Vec<_>>().join(", "),
         row.error.map_or_else(String::new, |error| format!("{error:.2e}")),
+        row.flip.map_or_else(String::new, |flip| format!("{flip:.3}")),
+        row.rounds.to_string(),
         passes.collect::<Vec<_>>().join(", "),
     ]
 }

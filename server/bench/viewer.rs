@@ -2,6 +2,7 @@
 
 use super::{Pass, Size, Work, stopwatch::Stopwatch};
 use crate::commands::Failure;
+use serde_json::Map;
 use std::sync::Arc;
 use welkin_scene::{
     Direction, ProbeRequest, Quality, Scene,
@@ -18,6 +19,16 @@ pub(super) fn forbidden(passes: &[Pass], allowed: impl Fn(&str) -> bool) -> Opti
     let names = passes.iter().map(|pass| pass.pass.as_str());
     let wrong: Vec<_> = names.filter(|pass| !allowed(pass)).collect();
     (!wrong.is_empty()).then(|| format!("ran {}", wrong.join(", ")))
+}
+
+/// A frame's radiance, R, G and B of each pixel.
+pub(super) fn radiance(frame: &Frame) -> Result<&[f32], Failure> {
+    match &frame.pixels {
+        Pixels::Linear(values) => Ok(values),
+        Pixels::Display(_) => Err(Failure::Bench(
+            "the renderer gave a picture for radiance".to_owned(),
+        )),
+    }
 }
 
 pub(super) struct Viewer<'a> {
@@ -44,12 +55,21 @@ impl Viewer<'_> {
         let frame = pollster::block_on(self.renderer.frame(order))?;
         let work = Work {
             work: work.to_owned(),
+            varied: Map::new(),
             spent: watch.stop(),
             passes: frame.passes.iter().map(Pass::from).collect(),
             error: None,
+            flip: None,
             fault: None,
         };
         Ok((work, frame))
+    }
+
+    /// A frame of another size, for its pixels.
+    pub(super) fn frame(&self, scene: &Scene, size: Size, output: Output) -> Result<Arc<Frame>, Failure> {
+        Ok(pollster::block_on(
+            self.renderer.frame(self.order(scene, size, output)),
+        )?)
     }
 
     fn order(&self, scene: &Scene, size: Size, output: Output) -> FrameOrder {
@@ -73,18 +93,13 @@ impl Viewer<'_> {
         size: Size,
         sights: &[Sight],
     ) -> Result<f64, Failure> {
-        let order = self.order(scene, size, Output::Linear);
-        let frame = pollster::block_on(self.renderer.frame(order))?;
+        let frame = self.frame(scene, size, Output::Linear)?;
         let request = ProbeRequest {
             scene: truth.clone(),
             directions: sights.iter().map(|sight| sight.direction).collect(),
         };
         let truth = pollster::block_on(self.renderer.probe(request.into()))?;
-        let Pixels::Linear(values) = &frame.pixels else {
-            return Err(Failure::Bench(
-                "the renderer gave a picture for radiance".to_owned(),
-            ));
-        };
+        let values = radiance(&frame)?;
         let (mut off, mut all) = (0.0, 0.0);
         for (sight, truth) in sights.iter().zip(&truth.radiance_w_m2_sr) {
             let seen = &values[3 * sight.index..3 * sight.index + 3];

@@ -11,17 +11,20 @@ use std::path::{Path, PathBuf};
 /// Arguments of `welkin bench`.
 #[derive(clap::Args)]
 pub(crate) struct Args {
-    /// What to measure: sky, air [default: all]
+    /// What to measure: sky, air, clouds [default: all]
     name: Option<String>,
-    /// Of how many runs each figure is the median
-    #[arg(long, value_name = "COUNT", default_value_t = 7, value_parser = clap::value_parser!(u32).range(1..))]
-    rounds: u32,
+    /// Of how many runs each figure is the median [default: 7; clouds: 3]
+    #[arg(long, value_name = "COUNT", value_parser = clap::value_parser!(u32).range(1..))]
+    rounds: Option<u32>,
     /// Sizes of frames instead of the case's own, for example 640x360,1920x1080
     #[arg(long, value_name = "SIZES", value_delimiter = ',')]
     sizes: Option<Vec<Size>>,
     /// Folder whose run.py measures the baseline beside it
     #[arg(long, value_name = "FOLDER", default_value = "../shared/baseline")]
     baseline: PathBuf,
+    /// Write the rows and plots of them to this file as a page
+    #[arg(long, value_name = "FILE.html")]
+    report: Option<PathBuf>,
     /// Measure this setup in this process, for the process that asks
     #[arg(long, hide = true, requires = "name")]
     setup: Option<Setup>,
@@ -53,6 +56,10 @@ pub(crate) fn run(args: &Args, config: Option<&Path>, json: bool) -> Result<(), 
     })?;
     if let Some(reason) = &report.baseline_absent {
         eprintln!("no baseline: {reason}");
+    }
+    if let Some(path) = &args.report {
+        let page = bench::page(&report)?;
+        std::fs::write(path, page).map_err(Failure::file(format!("writing {}", path.display())))?;
     }
     if json {
         document::print(&json!(report), true)?;

@@ -20,6 +20,7 @@ use crate::{
 };
 use sha2::{Digest, Sha256};
 use std::sync::Arc;
+use welkin_scene::renderer::PassTime;
 
 /// How a texture is made: its shader writes four floats a texel, and these become bytes.
 pub(crate) struct Recipe {
@@ -38,6 +39,7 @@ pub(crate) struct CloudNoise {
     weather: Memo<Table>,
     sheet: Memo<Table>,
     disk: Option<DiskCache>,
+    times: Vec<PassTime>,
 }
 
 impl CloudNoise {
@@ -49,7 +51,13 @@ impl CloudNoise {
             weather: Memo::new(4),
             sheet: Memo::new(4),
             disk,
+            times: Vec::new(),
         }
+    }
+
+    /// What was computed since this was last asked.
+    pub(crate) fn take_times(&mut self) -> Vec<PassTime> {
+        std::mem::take(&mut self.times)
     }
 
     /// A volume; see [`cloud_shape`].
@@ -59,37 +67,32 @@ impl CloudNoise {
         seed: u32,
         frequencies: ShapeFrequencies,
     ) -> Result<Arc<Table>, Error> {
-        made(
-            &mut self.shape,
-            self.disk.as_ref(),
-            gpu,
-            &cloud_shape(seed, frequencies),
-        )
+        let recipe = cloud_shape(seed, frequencies);
+        made(&mut self.shape, self.disk.as_ref(), gpu, &recipe, &mut self.times)
     }
 
     /// A volume; see [`cloud_detail`].
     pub(crate) fn detail(&mut self, gpu: &Gpu, seed: u32, frequency: u32) -> Result<Arc<Table>, Error> {
-        made(
-            &mut self.detail,
-            self.disk.as_ref(),
-            gpu,
-            &cloud_detail(seed, frequency),
-        )
+        let recipe = cloud_detail(seed, frequency);
+        made(&mut self.detail, self.disk.as_ref(), gpu, &recipe, &mut self.times)
     }
 
     /// See [`cloud_curl`].
     pub(crate) fn curl(&mut self, gpu: &Gpu, seed: u32) -> Result<Arc<Table>, Error> {
-        made(&mut self.curl, self.disk.as_ref(), gpu, &cloud_curl(seed))
+        let recipe = cloud_curl(seed);
+        made(&mut self.curl, self.disk.as_ref(), gpu, &recipe, &mut self.times)
     }
 
     /// See [`cloud_weather`].
     pub(crate) fn weather(&mut self, gpu: &Gpu, seed: u32) -> Result<Arc<Table>, Error> {
-        made(&mut self.weather, self.disk.as_ref(), gpu, &cloud_weather(seed))
+        let recipe = cloud_weather(seed);
+        made(&mut self.weather, self.disk.as_ref(), gpu, &recipe, &mut self.times)
     }
 
     /// See [`cloud_sheet`].
     pub(crate) fn sheet(&mut self, gpu: &Gpu, seed: u32) -> Result<Arc<Table>, Error> {
-        made(&mut self.sheet, self.disk.as_ref(), gpu, &cloud_sheet(seed))
+        let recipe = cloud_sheet(seed);
+        made(&mut self.sheet, self.disk.as_ref(), gpu, &recipe, &mut self.times)
     }
 }
 
@@ -98,29 +101,35 @@ fn made(
     disk: Option<&DiskCache>,
     gpu: &Gpu,
     recipe: &Recipe,
+    times: &mut Vec<PassTime>,
 ) -> Result<Arc<Table>, Error> {
     let name = recipe.shader.name;
     let made_from = Fingerprint::of((name, &recipe.uniform));
     memo.try_get_or(made_from, || {
-        let bytes = bytes(gpu, disk, recipe)?;
+        let (bytes, spent) = bytes(gpu, disk, recipe)?;
+        times.extend(spent);
         let view = gpu.holding(name, recipe.size, recipe.shape, Texel::Byte, &bytes);
         Ok(Table { view, made_from })
     })
 }
 
 /// From disk where they are there, else computed and put there.
-pub(crate) fn bytes(gpu: &Gpu, disk: Option<&DiskCache>, recipe: &Recipe) -> Result<Vec<u8>, Error> {
+pub(crate) fn bytes(
+    gpu: &Gpu,
+    disk: Option<&DiskCache>,
+    recipe: &Recipe,
+) -> Result<(Vec<u8>, Vec<PassTime>), Error> {
     let Some(disk) = disk else {
         return computed(gpu, recipe);
     };
     let (name, key) = (recipe.shader.name, key(gpu, recipe));
     let size: usize = recipe.size.iter().map(|side| *side as usize).product();
     if let Some(kept) = disk.find(name, &key, 4 * size) {
-        return Ok(kept);
+        return Ok((kept, Vec::new()));
     }
-    let bytes = computed(gpu, recipe)?;
+    let (bytes, times) = computed(gpu, recipe)?;
     disk.keep(name, &key, &bytes);
-    Ok(bytes)
+    Ok((bytes, times))
 }
 
 /// Of all that the bytes depend on. Adapters differ in the last bits of a sine, and releases in what becomes of the
@@ -142,7 +151,7 @@ fn key(gpu: &Gpu, recipe: &Recipe) -> [u8; 32] {
     digest.finalize().into()
 }
 
-fn computed(gpu: &Gpu, recipe: &Recipe) -> Result<Vec<u8>, Error> {
+fn computed(gpu: &Gpu, recipe: &Recipe) -> Result<(Vec<u8>, Vec<PassTime>), Error> {
     let name = recipe.shader.name;
     let size = 16 * recipe.size.iter().map(|side| u64::from(*side)).product::<u64>();
     let texels = gpu.buffer(
@@ -163,8 +172,7 @@ fn computed(gpu: &Gpu, recipe: &Recipe) -> Result<Vec<u8>, Error> {
     recorder
         .encoder
         .copy_buffer_to_buffer(&texels, 0, &readable, 0, size);
-    let (bytes, _) = recorder.finish(&[(&readable, size)], |bytes| {
+    recorder.finish(&[(&readable, size)], |bytes| {
         (recipe.to_bytes)(bytemuck::cast_slice(bytes[0]))
-    })?;
-    Ok(bytes)
+    })
 }

@@ -30,6 +30,7 @@ use welkin_scene::{
     Quality, Scene,
     assets::SceneAssets,
     clouds::{Clouds, PlainMap},
+    renderer::PassTime,
 };
 
 /// The passes of the clouds.
@@ -196,6 +197,11 @@ impl CloudPasses {
             shadow: CloudShadow::new(gpu),
             pictures: Memo::new(4),
         }
+    }
+
+    /// What noise and weather cost since this was last asked.
+    pub(crate) fn take_times(&mut self) -> Vec<PassTime> {
+        self.noise.take_times()
     }
 
     /// Noise and weather; made, and waited for, where they are not there yet.

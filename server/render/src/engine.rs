@@ -224,7 +224,9 @@ impl Engine {
                 _ => self.exposure.none(gpu),
             };
             let camera = CameraUniform::new(&scene.camera, size_px);
-            let ((), times) = recorder.finish(&[], |_| ())?;
+            let ((), spent) = recorder.finish(&[], |_| ())?;
+            let mut times = self.clouds.take_times();
+            times.extend(spent);
             let discs_left = clouds.as_ref().map_or(Ok(DiscsLeft::default()), |scape| {
                 self.probe
                     .clouds

@@ -31,7 +31,7 @@ fn recipes(seed: u32) -> [Recipe; 5] {
 /// The bytes of all five for one seed.
 static MADE: LazyLock<[Vec<u8>; 5]> = LazyLock::new(|| {
     let engine = engine();
-    recipes(1).map(|recipe| bytes(&engine.gpu, None, &recipe).unwrap())
+    recipes(1).map(|recipe| bytes(&engine.gpu, None, &recipe).unwrap().0)
 });
 
 const SHAPE: usize = 0;
@@ -187,7 +187,7 @@ fn the_flow_in_the_texture_has_no_sources() {
 #[test]
 fn seeds_and_frequencies_make_a_difference() {
     let engine = engine();
-    let other = |recipe: &Recipe| bytes(&engine.gpu, None, recipe).unwrap();
+    let other = |recipe: &Recipe| bytes(&engine.gpu, None, recipe).unwrap().0;
     let apart = |a: &[u8], b: &[u8]| {
         let sum: u64 = a.iter().zip(b).map(|(a, b)| u64::from(a.abs_diff(*b))).sum();
         sum as f64 / a.len() as f64
@@ -210,7 +210,7 @@ fn seeds_and_frequencies_make_a_difference() {
 #[test]
 fn the_finest_noise_is_still_noise() {
     let engine = engine();
-    let fine = bytes(&engine.gpu, None, &cloud_detail(1, 32)).unwrap();
+    let fine = bytes(&engine.gpu, None, &cloud_detail(1, 32)).unwrap().0;
     let levels: std::collections::BTreeSet<u8> = fine.iter().copied().collect();
     assert!(levels.len() > 200);
 }
@@ -227,7 +227,7 @@ fn devices_and_caches_make_no_difference() {
         // Made and kept, then found; and made on another device, by the same driver.
         for cache in [Some(&cache), Some(&cache), None] {
             assert!(
-                bytes(&other, cache, recipe).unwrap() == *made,
+                bytes(&other, cache, recipe).unwrap().0 == *made,
                 "{}",
                 recipe.shader.name
             );

@@ -1,0 +1,258 @@
+//! Clouds: what each kind of change costs, and the tables of two published programs.
+
+mod tables;
+mod truth;
+
+use super::{
+    Account, Case, Setup, Size, Work,
+    stopwatch::{Stopwatch, peak_memory_bytes},
+    viewer::{AIR_TABLES, CAMERA_PASSES, Viewer, forbidden},
+};
+use crate::{commands::Failure, settings::Settings};
+use serde_json::{Map, json};
+use tables::Table;
+use welkin_scene::{Direction, Quality, Scene, SunPosition, renderer::Render};
+
+/// The passes that make noise and weather, which depend on seeds and frequencies alone.
+const NOISE: [&str; 5] = [
+    "cloud_shape",
+    "cloud_detail",
+    "cloud_curl",
+    "cloud_weather",
+    "cloud_sheet",
+];
+/// The pass that follows the rays of view through the clouds.
+const VIEW: &str = "cloud_view";
+
+/// Presets of which frames are compared with brute force.
+const TRUTH_SCENES: [&str; 2] = ["bauman", "fair-weather"];
+
+/// The baseline `horizon` takes ten seconds and more for larger frames.
+const MOST_HORIZON_PIXELS: u32 = 900 * 600;
+
+/// Size at which the targets hold.
+const TARGET_SIZE: Size = Size::new(900, 600);
+
+pub(super) struct CloudCase;
+
+impl Case for CloudCase {
+    fn name(&self) -> &'static str {
+        "clouds"
+    }
+
+    /// The baselines' frames take most of each.
+    fn rounds(&self) -> u32 {
+        3
+    }
+
+    /// How far frames are off is the same in every round.
+    fn repeats(&self, setup: &Setup) -> bool {
+        !matches!(setup.parameter("table"), Ok(Table::Truth))
+    }
+
+    fn baselines(&self, setup: &Setup) -> &'static [&'static str] {
+        let pixels = setup.size.width_px * setup.size.height_px;
+        match setup.parameter("table") {
+            Ok(Table::Changes) if pixels <= MOST_HORIZON_PIXELS => &["listing", "horizon"],
+            Ok(Table::Changes) => &["listing"],
+            Ok(Table::ShellDensity | Table::ShellCoverage) if setup.size == TARGET_SIZE => &["listing"],
+            _ => &[],
+        }
+    }
+
+    fn target(&self, setup: &Setup, work: &str, baseline: &str) -> Option<f64> {
+        let quality = setup.parameter("quality").ok()?;
+        match (baseline, work, quality) {
+            _ if setup.size != TARGET_SIZE => None,
+            ("listing", "sun-moved", Quality::Preview) => Some(100.0),
+            ("listing", "sun-moved", Quality::Final) => Some(5.0),
+            ("listing", "camera-turned", _) => Some(300.0),
+            _ => None,
+        }
+    }
+
+    fn setups(&self, sizes: Option<&[Size]>) -> Vec<Setup> {
+        let mut all = Vec::new();
+        for size in sizes.unwrap_or(&tables::SIZES) {
+            for table in Table::ALL {
+                // At sizes that are asked for, each table once in each quality.
+                let places = table.places().iter();
+                let mut qualities: Vec<Quality> = places
+                    .filter(|(own, _)| sizes.is_some() || own == size)
+                    .flat_map(|(_, qualities)| *qualities)
+                    .copied()
+                    .collect();
+                qualities.sort_by_key(|quality| *quality == Quality::Final);
+                qualities.dedup();
+                let parameters: Vec<_> = match table {
+                    Table::Truth if qualities.is_empty() => Vec::new(),
+                    Table::Truth => TRUTH_SCENES.map(|scene| ("scene", json!(scene))).into(),
+                    _ => qualities
+                        .iter()
+                        .map(|quality| ("quality", json!(quality)))
+                        .collect(),
+                };
+                all.extend(parameters.into_iter().map(|(name, value)| Setup {
+                    size: *size,
+                    parameters: Map::from_iter([
+                        ("table".to_owned(), json!(table)),
+                        (name.to_owned(), value),
+                    ]),
+                }));
+            }
+        }
+        all
+    }
+
+    fn measure(&self, setup: &Setup, settings: &Settings) -> Result<Account, Failure> {
+        let quality = || setup.parameter("quality");
+        match setup.parameter("table")? {
+            Table::Changes => changes(setup.size, quality()?, settings),
+            Table::Noise => noise(setup.size, quality()?, settings),
+            Table::Truth => {
+                let scene: String = setup.parameter("scene")?;
+                let renderer = crate::open_renderer(settings)?;
+                let works = truth::works(&*renderer, &tables::named(&scene), TARGET_SIZE, setup.size)?;
+                // Brute force is not part of anybody's frame.
+                Ok(account(&*renderer, works, None))
+            }
+            table => sweep(table, setup.size, quality()?, settings),
+        }
+    }
+}
+
+/// What somebody does who looks at clouds.
+fn changes(size: Size, quality: Quality, settings: &Settings) -> Result<Account, Failure> {
+    let mut scene = tables::shell();
+    let watch = Stopwatch::start();
+    let renderer = crate::open_renderer(settings)?;
+    let viewer = Viewer {
+        renderer: &*renderer,
+        size,
+        quality,
+    };
+    let (mut first, _) = viewer.see("first-frame", &scene)?;
+    first.spent = watch.stop();
+    warm_up(&viewer, &scene)?;
+
+    turn_sun(&mut scene, 39.0);
+    let (mut sun_moved, _) = viewer.see("sun-moved", &scene)?;
+    sun_moved.fault = forbidden(&sun_moved.passes, |pass| {
+        !AIR_TABLES.contains(&pass) && !NOISE.contains(&pass)
+    });
+
+    let before = scene.camera.direction.to_angles();
+    scene.camera.direction = Direction::angles(before.azimuth_deg + 20.0, before.elevation_deg);
+    let (mut turned, _) = viewer.see("camera-turned", &scene)?;
+    turned.fault = forbidden(&turned.passes, |pass| {
+        CAMERA_PASSES.contains(&pass) || pass == VIEW
+    });
+
+    let (mut nothing_changed, _) = viewer.see("nothing-changed", &scene)?;
+    nothing_changed.fault = forbidden(&nothing_changed.passes, |_| false);
+
+    let works = vec![first, sun_moved, turned, nothing_changed];
+    Ok(account(&*renderer, works, peak_memory_bytes()))
+}
+
+/// A table's frames, one after the other, each of a scene that was not there before.
+fn sweep(table: Table, size: Size, quality: Quality, settings: &Settings) -> Result<Account, Failure> {
+    let renderer = crate::open_renderer(settings)?;
+    let viewer = Viewer {
+        renderer: &*renderer,
+        size,
+        quality,
+    };
+    warm_up(&viewer, &table.scene(&Map::new())?)?;
+    let mut works = Vec::new();
+    for varied in table.variations() {
+        let (mut work, _) = viewer.see(table.work(), &table.scene(&varied)?)?;
+        work.varied = varied;
+        works.push(work);
+    }
+    Ok(account(&*renderer, works, peak_memory_bytes()))
+}
+
+/// All noise, by a seed that was not there before, with nothing on disk.
+fn noise(size: Size, quality: Quality, settings: &Settings) -> Result<Account, Failure> {
+    let settings = Settings {
+        disk_cache_bytes: 0,
+        ..settings.clone()
+    };
+    let renderer = crate::open_renderer(&settings)?;
+    let viewer = Viewer {
+        renderer: &*renderer,
+        size,
+        quality,
+    };
+    let mut scene = tables::fair_weather();
+    viewer.see("unmeasured", &scene)?;
+    if let Some(clouds) = &mut scene.clouds {
+        clouds.seed += 1;
+    }
+    let (mut made, _) = viewer.see(Table::Noise.work(), &scene)?;
+    let missing: Vec<_> = NOISE
+        .into_iter()
+        .filter(|pass| made.passes.iter().all(|ran| ran.pass != *pass))
+        .collect();
+    made.fault = (!missing.is_empty()).then(|| format!("did not run {}", missing.join(", ")));
+    Ok(account(&*renderer, vec![made], peak_memory_bytes()))
+}
+
+/// Compiles the shaders and finds the size of tiles, at a quarter of the cost and under another sun.
+fn warm_up(viewer: &Viewer<'_>, scene: &Scene) -> Result<(), Failure> {
+    let mut scene = scene.clone();
+    turn_sun(&mut scene, 41.0);
+    let Size { width_px, height_px } = viewer.size;
+    let size = Size::new(width_px.div_ceil(2), height_px.div_ceil(2));
+    Viewer { size, ..*viewer }.see("unmeasured", &scene)?;
+    Ok(())
+}
+
+fn turn_sun(scene: &mut Scene, elevation_deg: f64) {
+    scene.sun.position = SunPosition::Direction(Direction::angles(70.0, elevation_deg));
+}
+
+fn account(renderer: &dyn Render, works: Vec<Work>, peak_memory_bytes: Option<u64>) -> Account {
+    Account {
+        device: renderer.device(),
+        works,
+        peak_memory_bytes,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, reason = "tests fail by panicking")]
+
+    use super::*;
+
+    #[test]
+    fn setups_of_a_size_stand_together_so_that_the_baseline_is_asked_once() {
+        let setups = CloudCase.setups(None);
+        let groups = setups.chunk_by(|a, b| a.size == b.size);
+        let mut seen: Vec<Size> = Vec::new();
+        for group in groups {
+            assert!(!seen.contains(&group[0].size), "{:?}", group[0].size);
+            seen.push(group[0].size);
+        }
+        assert_eq!(seen.len(), tables::SIZES.len());
+    }
+
+    #[test]
+    fn targets_stand_at_one_size_and_against_one_baseline() {
+        let setups = CloudCase.setups(None);
+        let of = |baseline: &str, work: &str| {
+            let all = setups.iter().filter_map(|setup| {
+                let target = CloudCase.target(setup, work, baseline)?;
+                assert_eq!(setup.size, TARGET_SIZE);
+                (setup.parameter::<Table>("table").unwrap() == Table::Changes).then_some(target)
+            });
+            all.collect::<Vec<_>>()
+        };
+        assert_eq!(of("listing", "sun-moved"), [100.0, 5.0]);
+        assert_eq!(of("listing", "camera-turned"), [300.0, 300.0]);
+        assert_eq!(of("listing", "first-frame"), [0.0; 0]);
+        assert_eq!(of("horizon", "sun-moved"), [0.0; 0]);
+    }
+}
