@@ -2,13 +2,18 @@
 #![allow(clippy::unwrap_used, reason = "tests fail by panicking")]
 
 use serde_json::{Value, json};
-use std::process::Command;
+use std::{ffi::OsStr, process::Command};
 
 /// The report of one round at one size, without a baseline, and what was said beside it.
 fn measured(case: &str, baseline: &str) -> (Value, String) {
+    measured_with(case, baseline, &[])
+}
+
+fn measured_with(case: &str, baseline: &str, more: &[&OsStr]) -> (Value, String) {
     let output = Command::new(env!("CARGO_BIN_EXE_welkin"))
         .args(["bench", case, "--sizes", "64x36", "--rounds", "1", "--json"])
         .args(["--baseline", baseline])
+        .args(more)
         .output()
         .unwrap();
     let told = String::from_utf8_lossy(&output.stderr).into_owned();
@@ -22,7 +27,6 @@ fn the_sky_is_measured_and_no_pass_runs_in_vain() {
     let (report, told) = measured("sky", missing);
 
     assert_eq!(report["faults"].as_array().map(Vec::len), Some(0));
-    assert_eq!(report["rounds"], 1);
     assert!(report["cores"].as_u64().unwrap() >= 1);
     for name in ["build", "adapter", "driver", "kind", "backend"] {
         assert!(!report[name].as_str().unwrap().is_empty(), "{name}");
@@ -64,7 +68,8 @@ fn the_sky_is_measured_and_no_pass_runs_in_vain() {
                 (&Value::from(64), &Value::from(36))
             );
             assert!(row["wall_ms"].as_f64().unwrap() >= 0.0, "{row}");
-            assert!(row["baseline"].is_null() && row["speedup"].is_null());
+            assert_eq!((&row["baselines"], &row["rounds"]), (&json!([]), &json!(1)));
+            assert!(row["speedup"].is_null() && row["varied"].is_null());
             let ran = row["passes"].as_array().unwrap();
             let ran: Vec<_> = ran.iter().map(|pass| pass["pass"].as_str().unwrap()).collect();
             if let Some(passes) = passes {
@@ -98,7 +103,7 @@ fn the_three_approaches_are_measured_side_by_side() {
             (&json!(place), &json!(method), &json!(works[index % 3])),
             "{row}"
         );
-        assert!(row["baseline"].is_null());
+        assert_eq!(row["baselines"], json!([]));
         // Followed anew in each work: a frame that was kept from before would name no pass.
         let ran: Vec<_> = row["passes"].as_array().unwrap().iter().collect();
         assert!(ran.iter().any(|pass| pass["pass"] == "sky"), "{row}");
@@ -116,9 +121,118 @@ fn the_three_approaches_are_measured_side_by_side() {
 }
 
 #[test]
+fn clouds_are_measured_by_what_changes_and_table_by_table() {
+    let folder = tempfile::tempdir().unwrap();
+    let page = folder.path().join("report.html");
+    let (report, _) = measured_with(
+        "clouds",
+        "no/such/folder",
+        &["--report".as_ref(), page.as_os_str()],
+    );
+    assert_eq!(report["faults"], json!([]));
+    let rows = report["rows"].as_array().unwrap();
+    let of = |table: &str, quality: &str| {
+        let quality = (quality != "any").then_some(quality);
+        let all = rows
+            .iter()
+            .filter(|row| row["table"] == table && quality.is_none_or(|quality| row["quality"] == quality));
+        all.collect::<Vec<_>>()
+    };
+    let ran = |row: &Value, pass: &str| {
+        let passes = row["passes"].as_array().unwrap();
+        passes.iter().any(|ran| ran["pass"] == pass)
+    };
+
+    for quality in ["preview", "final"] {
+        let changes = of("changes", quality);
+        let works: Vec<_> = changes.iter().map(|row| row["work"].as_str().unwrap()).collect();
+        assert_eq!(
+            works,
+            ["first-frame", "sun-moved", "camera-turned", "nothing-changed"]
+        );
+        for (row, work) in changes.iter().zip(works) {
+            let rendered = work != "nothing-changed";
+            assert_eq!(!row["passes"].as_array().unwrap().is_empty(), rendered, "{row}");
+        }
+    }
+
+    // How many frames each table has, and a field of `clouds` that it varies.
+    for (table, qualities, field, values) in [
+        ("shell-density", 2, "density", 8),
+        ("shell-coverage", 2, "coverage", 6),
+        ("steps", 1, "steps", 5),
+        ("coverage", 1, "coverage", 5),
+        ("light-steps", 1, "light_steps", 5),
+        ("combinations", 1, "light_steps", 2),
+    ] {
+        let rows = of(table, "any");
+        let frames = if table == "combinations" { 8 } else { values };
+        assert_eq!(rows.len(), qualities * frames, "{table}");
+        let mut found: Vec<_> = rows
+            .iter()
+            .map(|row| row["varied"][field].as_f64().unwrap())
+            .collect();
+        found.sort_by(f64::total_cmp);
+        found.dedup();
+        assert_eq!(found.len(), values, "{table}: {found:?}");
+        for row in rows {
+            // Without density there are no clouds to follow rays through.
+            let seen = row["varied"]["density"] != json!(0.0);
+            assert_eq!(ran(row, "cloud_view"), seen, "{row}");
+        }
+    }
+    let made = of("noise", "any");
+    assert_eq!(made.len(), 1);
+    assert!(
+        ran(made[0], "cloud_shape") && ran(made[0], "cloud_weather"),
+        "{made:?}"
+    );
+
+    let truth = of("truth", "any");
+    assert_eq!(truth.len(), 2 * 3);
+    for rows in truth.chunks(3) {
+        let [preview, last, exact] = rows else {
+            panic!("{rows:?}")
+        };
+        let works = [preview, last, exact].map(|row| row["work"].as_str().unwrap());
+        assert_eq!(works, ["preview", "final", "brute-force"]);
+        assert!(exact["error"].is_null() && exact["flip"].is_null(), "{exact}");
+        for row in [preview, last] {
+            // 0.5, 0.3: a frame without its clouds is further off; how near they must be, the renderer's tests say.
+            let (error, flip) = (row["error"].as_f64().unwrap(), row["flip"].as_f64().unwrap());
+            assert!(error > 0.0 && error < 0.5, "{row}");
+            assert!((0.0..0.3).contains(&flip), "{row}");
+        }
+        assert!(last["error"].as_f64() < preview["error"].as_f64(), "{rows:?}");
+    }
+
+    let page = std::fs::read_to_string(page).unwrap();
+    // By one size nothing can be plotted against sizes.
+    assert_eq!(page.matches("<svg").count(), 5, "{page}");
+    assert_eq!(page.matches("<tr").count(), 1 + rows.len());
+    for foreign in ["src=", "href=", "url("] {
+        assert!(!page.contains(foreign), "{foreign}");
+    }
+}
+
+#[test]
+fn a_report_that_cannot_be_written_is_told_before_anything_is_measured() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut command = Command::new(env!("CARGO_BIN_EXE_welkin"));
+    let output = command
+        .args(["bench", "clouds", "--report"])
+        .arg(folder.path().join("no/such/folder.html"))
+        .output()
+        .unwrap();
+    let told = String::from_utf8_lossy(&output.stderr);
+    assert!(!output.status.success(), "{told}");
+    assert!(told.contains("folder.html"), "{told}");
+}
+
+#[test]
 fn what_cannot_be_measured_is_told() {
     for (arguments, words) in [
-        (["no-such-case", "--rounds", "1"], "there are sky, air"),
+        (["no-such-case", "--rounds", "1"], "there are sky, air, clouds"),
         (["sky", "--sizes", "640"], "WIDTHxHEIGHT"),
         (["sky", "--rounds", "0"], "--rounds"),
     ] {

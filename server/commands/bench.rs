@@ -6,7 +6,11 @@ use crate::{
     settings::{DeviceFlags, Settings},
 };
 use serde_json::json;
-use std::path::{Path, PathBuf};
+use std::{
+    fs::File,
+    io::Write as _,
+    path::{Path, PathBuf},
+};
 
 /// Arguments of `welkin bench`.
 #[derive(clap::Args)]
@@ -46,6 +50,12 @@ pub(crate) fn run(args: &Args, config: Option<&Path>, json: bool) -> Result<(), 
     if let (Some(setup), [case]) = (&args.setup, cases.as_slice()) {
         return document::print(&bench::measure(*case, setup, &settings)?, false);
     }
+    // Before minutes are spent on what then could not be written.
+    let page = args
+        .report
+        .as_ref()
+        .map(|path| File::create(path).map_err(Failure::file(path.display().to_string())));
+    let page = page.transpose()?;
     let report = bench::run(&Plan {
         cases,
         sizes: args.sizes.as_deref(),
@@ -57,9 +67,10 @@ pub(crate) fn run(args: &Args, config: Option<&Path>, json: bool) -> Result<(), 
     if let Some(reason) = &report.baseline_absent {
         eprintln!("no baseline: {reason}");
     }
-    if let Some(path) = &args.report {
+    if let (Some(path), Some(mut file)) = (&args.report, page) {
         let page = bench::page(&report)?;
-        std::fs::write(path, page).map_err(Failure::file(format!("writing {}", path.display())))?;
+        file.write_all(page.as_bytes())
+            .map_err(Failure::file(path.display().to_string()))?;
     }
     if json {
         document::print(&json!(report), true)?;
