@@ -159,7 +159,8 @@ fn svg(plot: &Plot) -> Result<String, Failure> {
             range(least(y), most(y)),
         )
     } else {
-        draw(&mut text, plot, 0.0..1.05 * most(x), 0.0..1.1 * most(y))
+        // Above the lines there is room for their names.
+        draw(&mut text, plot, 0.0..1.05 * most(x), 0.0..1.5 * most(y))
     };
     drawn.map_err(|e| Failure::Bench(format!("the plot {:?}: {e}", plot.title)))?;
     Ok(text)
@@ -198,9 +199,14 @@ where
             .label(&line.name)
             .legend(move |(x, y)| PathElement::new([(x, y), (x + 16, y)], style));
     }
+    let names = if plot.logarithmic {
+        SeriesLabelPosition::LowerRight
+    } else {
+        SeriesLabelPosition::UpperLeft
+    };
     chart
         .configure_series_labels()
-        .position(SeriesLabelPosition::UpperLeft)
+        .position(names)
         .background_style(WHITE.mix(0.8))
         .border_style(BLACK.mix(0.3))
         .draw()?;
