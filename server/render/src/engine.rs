@@ -157,6 +157,8 @@ impl Engine {
         let scene = &*order.scene;
         let gpu = &self.gpu;
         gpu.guarded(|| {
+            // Noise that a probe made is no part of this frame.
+            drop(self.clouds.take_times());
             let cloud_sky = clouds::Sky::new(scene);
             let textures = cloud_sky
                 .as_ref()
