@@ -18,6 +18,10 @@ export function createMaps(select, chosen) {
   };
   return {
     names: () => names,
+    /** The server has this one, too. @param {string} name */
+    add(name) {
+      if (!names.includes(name)) names = [...names, name].toSorted();
+    },
     async refresh() {
       names = (await listMaps()).map(({ name }) => name);
     },

@@ -62,6 +62,7 @@ export function createPainter(store, stage, fair, open) {
     const channels = [...painted];
     painted.clear();
     await putMap(name, await toPng(raster));
+    maps.add(name);
     settle();
     use(name, channels);
   }, complain);
@@ -216,6 +217,7 @@ export function createPainter(store, stage, fair, open) {
       await maps.refresh();
       if (maps.names().length > 0) return held ?? maps.names()[0];
       await putMap(name, await toPng(raster));
+      maps.add(name);
       held = name;
       open();
       return name;
