@@ -15,6 +15,10 @@ const ARGUMENTS = [
 /** A full picture takes seconds where two cores render in software. */
 const PATIENCE_MS = 45_000;
 export const DESK = { width: 900, height: 560 };
+/** A desk's layout with few pixels: clouds are dear where two cores render in software. */
+export const STRIP = { width: 740, height: 320 };
+/** Clouds that are rendered in few steps, as part of an address. */
+export const CHEAP = 'clouds.steps=16&clouds.light_steps=1&clouds.octaves=1';
 export const PHONE = { width: 360, height: 740 };
 
 /** What each page has sent over its live connection. @type {WeakMap<Page, any[]>} */
@@ -94,6 +98,15 @@ export async function changing(page, act) {
     const sky = document.getElementById('sky');
     return sky?.dataset.seq !== old && document.body.dataset.state === 'final';
   }, seq);
+}
+
+/** Does something that the server is told, and waits until it is. @param {Page} page @param {() => Promise<unknown>} act */
+export async function telling(page, act) {
+  const count = sent(page).length;
+  await act();
+  for (const end = Date.now() + PATIENCE_MS; sent(page).length === count; await page.waitForTimeout(20)) {
+    assert.ok(Date.now() < end, 'nothing was sent');
+  }
 }
 
 /** The middle of the sun's ring, CSS pixels. @param {Page} page */

@@ -1,14 +1,14 @@
 /** The weather painted in the page: it reaches the server and the sky, is kept, loaded, sent as a file and refused. */
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
-import { colours, difference, PHONE, sentScene, useBrowser } from './page.mjs';
+import { CHEAP, colours, difference, PHONE, sentScene, STRIP, useBrowser } from './page.mjs';
 
 const open = useBrowser();
 const openWithout = useBrowser(['--max-assets', '0']);
 /** A part of the picture's change that JPEG and dither do not make, of 255. */
 const SEEN = 2;
 /** Clouds of one layer, so that what is painted is all there is. */
-const HASH = '#camera.direction.elevation_deg=30&camera.direction.azimuth_deg=0&clouds.layers=[{"kind":"volume"}]';
+const HASH = `#camera.direction.elevation_deg=30&camera.direction.azimuth_deg=0&clouds.layers=[{"kind":"volume"}]&${CHEAP}`;
 
 /** @typedef {import('./page.mjs').Page} Page */
 /** @param {Page} page */
@@ -98,7 +98,7 @@ test('a stroke reaches the server and the sky, and is undone there', () =>
       // In the north there are only those of the next repetition, 54 km away.
       assert.ok(difference(await colours(page), clear) < seen / 3, 'what is painted in the south stands behind the camera');
     },
-    { hash: HASH },
+    { hash: HASH, viewport: STRIP },
   ));
 
 test('each channel is filled, erased and cleared, and acts in the scene', () =>
@@ -128,7 +128,7 @@ test('each channel is filled, erased and cleared, and acts in the scene', () =>
       await sending(page, () => page.locator('#paint-clear').click());
       assert.deepEqual(await kept(page, mapName(page), 0.2, 0.7), [0, 128, 0]);
     },
-    { hash: '#clouds.layers=[{"kind":"volume","type":0.9}]' },
+    { hash: `#clouds.layers=[{"kind":"volume","type":0.9}]&${CHEAP}`, viewport: STRIP },
   ));
 
 test('the keys paint, too, and leave the sun alone', () =>
@@ -146,7 +146,7 @@ test('the keys paint, too, and leave the sun alone', () =>
       await sending(page, () => page.keyboard.press('Control+z'));
       assert.equal((await kept(page, mapName(page), 0.75, 0.495))[0], 0);
     },
-    { hash: HASH },
+    { hash: HASH, viewport: STRIP },
   ));
 
 test('a pen paints as hard as it is pressed', () =>
@@ -170,7 +170,7 @@ test('a pen paints as hard as it is pressed', () =>
       // 0.4 and 0.8 of 255 in the middle of the dab; half a cell beside it some less.
       assert.ok(Math.abs(light[0] - 102) < 3 && Math.abs(hard[0] - 204) < 4, `${light} ${hard}`);
     },
-    { hash: HASH },
+    { hash: HASH, viewport: STRIP },
   ));
 
 test('a map is kept under a name, replaced when one says so, and loaded', () =>
@@ -202,7 +202,7 @@ test('a map is kept under a name, replaced when one says so, and loaded', () =>
       await sending(page, () => page.locator('#paint-replace').click());
       assert.ok((await kept(page, 'all-over', 0.5, 0.5))[0] < 40);
     },
-    { hash: HASH, logs: /412/ },
+    { hash: HASH, viewport: STRIP, logs: /412/ },
   ));
 
 test('a file is taken, by choice or dropped, or its refusal said', () =>
@@ -230,7 +230,7 @@ test('a file is taken, by choice or dropped, or its refusal said', () =>
       const shown = await page.locator('#map').evaluate((map) => [.../** @type {any} */ (map).getContext('2d').getImageData(5, 5, 1, 1).data]);
       assert.ok(shown[0] > 150, `the board shows it: ${shown}`);
     },
-    { hash: HASH, logs: /412|415/ },
+    { hash: HASH, viewport: STRIP, logs: /412|415/ },
   ));
 
 test('a reload goes on with the map', () =>
@@ -251,7 +251,7 @@ test('a reload goes on with the map', () =>
       assert.equal(mapName(page), name);
       assert.equal((await kept(page, name, 0.1, 0.1))[0], 255);
     },
-    { hash: HASH },
+    { hash: HASH, viewport: STRIP },
   ));
 
 test('the map shows its extent, the observer and where the camera looks', () =>
@@ -271,7 +271,7 @@ test('the map shows its extent, the observer and where the camera looks', () =>
       await page.keyboard.press('d');
       await page.waitForFunction((old) => document.getElementById('map-view')?.getAttribute('d') !== old, north);
     },
-    { hash: HASH },
+    { hash: HASH, viewport: STRIP },
   ));
 
 test('fingers paint on a phone, and the sheet does not scroll away under them', () =>
@@ -304,5 +304,5 @@ test('where the server keeps no maps it is said, and nothing can be painted', ()
       await page.locator('.field[data-pointer="/clouds/weather_map"] .error', { hasText: 'keeps no assets' }).waitFor({ state: 'visible' });
       assert.equal(await kind.locator('option:checked').textContent(), 'Procedural');
     },
-    { hash: HASH, logs: /404/ },
+    { hash: HASH, viewport: STRIP, logs: /404/ },
   ));

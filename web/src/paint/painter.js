@@ -187,7 +187,8 @@ export function createPainter(store, stage, fair, open) {
   function update() {
     if (drawer.hidden) return;
     const shown = shownName(store.scene);
-    if (canKeep && shown !== null && shown !== held) load(shown);
+    // A name that the server does not know is about to be refused.
+    if (canKeep && shown !== null && shown !== held && maps.names().includes(shown)) load(shown);
     maps.show(shown);
     status.textContent = told(shown);
     extent.valueAsNumber === extentM() / 1000 || (extent.valueAsNumber = extentM() / 1000);
