@@ -87,7 +87,8 @@ test('the weather map takes each of its kinds', () =>
       await telling(page, () => page.locator(`${field('/clouds/weather_map/share')} input[type="number"]`).fill('0.25'));
       assert.deepEqual([map().from.kind, map().to.kind, map().share], ['uniform', 'procedural', 0.25]);
       // The server has no map yet: a blank one is made, and there is where to paint it.
-      await telling(page, () => kind.selectOption({ label: 'Asset' }));
+      // Drawn, so that there is a name to go back to.
+      await changing(page, () => kind.selectOption({ label: 'Asset' }));
       assert.match(map().name, /^painted-/);
       await page.locator('#painter').waitFor({ state: 'visible' });
       const { assets } = await (await fetch(`${server.url}v1/assets/weather-maps`)).json();
