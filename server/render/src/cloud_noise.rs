@@ -74,7 +74,13 @@ impl CloudNoise {
     /// A volume; see [`cloud_detail`].
     pub(crate) fn detail(&mut self, gpu: &Gpu, seed: u32, frequency: u32) -> Result<Arc<Table>, Error> {
         let recipe = cloud_detail(seed, frequency);
-        made(&mut self.detail, self.disk.as_ref(), gpu, &recipe, &mut self.times)
+        made(
+            &mut self.detail,
+            self.disk.as_ref(),
+            gpu,
+            &recipe,
+            &mut self.times,
+        )
     }
 
     /// See [`cloud_curl`].
@@ -86,7 +92,13 @@ impl CloudNoise {
     /// See [`cloud_weather`].
     pub(crate) fn weather(&mut self, gpu: &Gpu, seed: u32) -> Result<Arc<Table>, Error> {
         let recipe = cloud_weather(seed);
-        made(&mut self.weather, self.disk.as_ref(), gpu, &recipe, &mut self.times)
+        made(
+            &mut self.weather,
+            self.disk.as_ref(),
+            gpu,
+            &recipe,
+            &mut self.times,
+        )
     }
 
     /// See [`cloud_sheet`].
