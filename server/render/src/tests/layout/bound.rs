@@ -69,6 +69,8 @@ fn every_uniform_is_tested() {
         ("probe", "Moon"),
         ("probe", "View"),
         ("probe", "Observer"),
+        ("probe", "CloudShade"),
+        ("probe", "CloudFrame"),
     ];
     let expected = expected.map(|(shader, name)| (shader, name.to_owned()));
     assert_eq!(names, expected);

@@ -149,7 +149,12 @@ fn shade_shadow_tile_and_frame() {
             base_m: f32,
         }
     );
-    let shaders = [&shader::CLOUD_SHADOW, &shader::CLOUD_VIEW, &shader::SKY];
+    let shaders = [
+        &shader::CLOUD_SHADOW,
+        &shader::CLOUD_VIEW,
+        &shader::SKY,
+        &shader::PROBE,
+    ];
     check(&shaders, "CloudShade", &part, &f);
     let mut f = Filled::default();
     let part = filled!(
@@ -179,5 +184,5 @@ fn shade_shadow_tile_and_frame() {
             light: vec3
         }
     );
-    check(&[&shader::SKY], "CloudFrame", &part, &f);
+    check(&[&shader::SKY, &shader::PROBE], "CloudFrame", &part, &f);
 }
