@@ -48,7 +48,7 @@ fn cloud_shadow(@builtin(global_invocation_id) id: vec3u) {
             let t = (2.0 * (f32(k) + 0.5) / f32(shadow.steps) - 1.0) * half_m;
             let at = p + t * shadow.light;
             let h = middle_m + t * mu;
-            depth += band_extinction(band, at, h, false) * 2.0 * half_m / f32(shadow.steps);
+            depth += band_extinction(band, at, h, false, 0.0).value * 2.0 * half_m / f32(shadow.steps);
         }
     }
     textureStore(maps, id.xy, id.z, vec4f(depth, 0.0, 0.0, 0.0));

@@ -6,7 +6,7 @@ import package::lib::geometry::{
     PI, angle_if_near, angle_of_cosine, distance_to_sphere, edge_zenith_angle, horizon_distance_squared,
 };
 import package::lib::phase::{cornette_shanks_phase, rayleigh_phase};
-import package::lib::cloud_shade::{CloudShade, ground_shaded};
+import package::lib::cloud_shade::{CloudShade, clouds_before, ground_shaded};
 import package::lib::light::{UNSHADED, View, disc_radiance, ground_radiance, scattered_radiance};
 import package::lib::picture::{Exposure, Tone, picture_pixel};
 import package::lib::moon::{Moon, corona, moon_radiance, place_on_moon};
@@ -84,6 +84,7 @@ struct Tile {
 @group(0) @binding(20) var<uniform> shade: CloudShade;
 @group(0) @binding(21) var shade_maps: texture_2d_array<f32>;
 @group(0) @binding(22) var<uniform> cloud_frame: CloudFrame;
+@group(0) @binding(23) var disc_clouds: texture_2d<f32>;
 
 fn light_in_air(ray: SkyViewRay, mu: f32, nu: f32) -> Scattered {
     if METHOD != 0u {
@@ -335,15 +336,18 @@ fn sky(@builtin(global_invocation_id) id: vec3u) {
             }
             var seen = radiance_of(light, nu, disc);
             if CLOUDS {
-                let at = (vec2f(vec2u(first + k, id.y)) + 0.5) * cloud_frame.fineness / vec2f(textureDimensions(cloud_table));
-                let clouds = textureSampleLevel(cloud_table, linear_clamp, at, 0.0);
+                let clouds = clouds_before(cloud_table, vec2u(first + k, id.y), cloud_frame.fineness);
                 seen = max(clouds.a * seen + clouds.rgb, vec3f(0.0));
             }
             value = vec4f(seen, 1.0 + angle_if_near(sight.direction, glaring));
         }
         let i = id.y * tile.size_px.x + first + k;
         if PICTURE {
-            picture[i] = picture_pixel(tone_settings, exposure.scale, CURVE, value, tile.origin_px + vec2u(first + k, id.y));
+            var disc_left = 1.0;
+            if CLOUDS {
+                disc_left = textureSampleLevel(disc_clouds, linear_clamp, vec2f(0.5), 0.0).a;
+            }
+            picture[i] = picture_pixel(tone_settings, exposure.scale, CURVE, disc_left, value, tile.origin_px + vec2u(first + k, id.y));
         } else {
             radiance[i] = value;
         }

@@ -1,5 +1,6 @@
 // Adds the stars to a tile of the picture. The list holds each pixel once, so that no two threads meet.
 import package::lib::air::Air;
+import package::lib::cloud_shade::clouds_before;
 import package::lib::light::View;
 import package::lib::stars::light_left;
 
@@ -18,7 +19,14 @@ struct Stretch {
     origin: u32,
     // Rises from 0 to 1 as the stars come out.
     out: f32,
+    // Of the tile.
+    width: u32,
+    // Texels of the clouds' table to a pixel.
+    cloud_fineness: f32,
 }
+
+// True where there are clouds.
+override CLOUDS: bool = false;
 
 @group(0) @binding(0) var<uniform> air: Air;
 @group(0) @binding(1) var<uniform> view: View;
@@ -27,6 +35,8 @@ struct Stretch {
 @group(0) @binding(4) var linear_clamp: sampler;
 @group(0) @binding(5) var<storage, read> glints: array<Glint>;
 @group(0) @binding(6) var<storage, read_write> radiance: array<vec4f>;
+// What they let through, in alpha.
+@group(0) @binding(7) var cloud_table: texture_2d<f32>;
 
 @compute @workgroup_size(64)
 fn stars(@builtin(global_invocation_id) id: vec3u) {
@@ -35,6 +45,11 @@ fn stars(@builtin(global_invocation_id) id: vec3u) {
     }
     let glint = glints[stretch.first + id.x];
     let mu = dot(glint.direction, view.up);
-    let left = light_left(air, transmittance_table, linear_clamp, view.altitude_m, mu);
-    radiance[glint.pixel - stretch.origin] += vec4f(stretch.out * left * glint.radiance, 0.0);
+    var left = light_left(air, transmittance_table, linear_clamp, view.altitude_m, mu);
+    let pixel = glint.pixel - stretch.origin;
+    if CLOUDS {
+        let place = vec2u(pixel % stretch.width, pixel / stretch.width);
+        left *= clouds_before(cloud_table, place, stretch.cloud_fineness).a;
+    }
+    radiance[pixel] += vec4f(stretch.out * left * glint.radiance, 0.0);
 }

@@ -7,7 +7,9 @@ struct CloudLayer {
     inverse_thickness_per_m: f32,
     // Of weather; negative where the map decides.
     cloud_type: f32,
+    // As the threshold of an evenly spread map takes it, and as it was asked for.
     coverage: f32,
+    share: f32,
     extinction_per_m: f32,
     anvil: f32,
 }
@@ -118,6 +120,8 @@ struct Weather {
     rain: f32,
     // The clouds' greatest height as a share of the layer.
     height: f32,
+    // Of S0 and S2: counts as the clouds' coverage rises beyond a half.
+    high: f32,
     // 1 where coverage is spread evenly over 0 to 1, so that a threshold cuts off a known share.
     spread: f32,
 }
@@ -136,14 +140,14 @@ fn share_below(v: vec3f) -> vec3f {
 
 fn weather_of(source: WeatherSource, map: texture_2d<f32>, along_m: vec2f) -> Weather {
     if source.convention == 0u {
-        return Weather(source.even.x, source.even.y, source.even.z, 1.0, 0.0);
+        return Weather(source.even.x, source.even.y, source.even.z, 1.0, 0.0, 0.0);
     }
     let place = along_m * source.inverse_extent_per_m;
     // Pictures have north up and the scene's origin in the middle.
     let at = select(place, vec2f(place.x, -place.y) + 0.5, source.twice == 0.0);
     let first = textureSampleLevel(map, linear_repeat, at - source.drift, 0.0);
     if source.convention == 2u {
-        return Weather(max(first.r, first.g), 0.5 + 0.5 * first.a, 0.0, max(first.b, 0.05), 0.0);
+        return Weather(first.r, 0.5 + 0.5 * first.a, 0.0, max(first.b, 0.05), first.g, 0.0);
     }
     var seen = first.rgb;
     if source.twice > 0.0 {
@@ -154,7 +158,7 @@ fn weather_of(source: WeatherSource, map: texture_2d<f32>, along_m: vec2f) -> We
         let system = textureSampleLevel(map, linear_repeat, SYSTEMS * at, 0.0).rgb;
         seen = mix(seen, share_below(system + SECOND_WEIGHT * seen), far);
     }
-    return Weather(seen.r, seen.g, seen.b, 1.0, 1.0);
+    return Weather(seen.r, seen.g, seen.b, 1.0, 0.0, 1.0);
 }
 
 fn weather_at(along_m: vec2f) -> Weather {
@@ -164,7 +168,7 @@ fn weather_at(along_m: vec2f) -> Weather {
     }
     let b = weather_of(clouds.weather[1], second_weather, along_m);
     let s = clouds.weather_share;
-    return Weather(mix(a.coverage, b.coverage, s), mix(a.cloud_type, b.cloud_type, s), mix(a.rain, b.rain, s), mix(a.height, b.height, s), mix(a.spread, b.spread, s));
+    return Weather(mix(a.coverage, b.coverage, s), mix(a.cloud_type, b.cloud_type, s), mix(a.rain, b.rain, s), mix(a.height, b.height, s), mix(a.high, b.high, s), mix(a.spread, b.spread, s));
 }
 
 // Trapezium with smooth sides: rises from x to y, falls from z to w.
@@ -179,7 +183,8 @@ const RIM = 0.5;
 // leaves none and full coverage leaves no gap.
 fn strength_of(layer: CloudLayer, weather: Weather) -> f32 {
     let spread = (weather.coverage - 1.0 + layer.coverage * (1.0 + RIM)) / RIM;
-    return clamp(mix(weather.coverage * layer.coverage, spread, weather.spread), 0.0, 1.0);
+    let high = clamp(layer.share - 0.5, 0.0, 1.0) * 2.0 * weather.high;
+    return clamp(mix(max(weather.coverage * layer.share, high), spread, weather.spread), 0.0, 1.0);
 }
 
 // How much of what could be there is, at a share h of a layer's height, before any noise.
@@ -199,6 +204,9 @@ fn profile(layer: CloudLayer, weather: Weather, strength: f32, h: f32) -> f32 {
 // Of the detail noise, at a modifier of 1.
 const BITE = 1.7;
 
+// The base noise is no less than this where all is covered.
+const LEAST_CLOSED = 0.5;
+
 // How far the cover of heaped cloud shrinks from base to top.
 const TAPER = 0.65;
 
@@ -208,23 +216,39 @@ fn heaped(layer: CloudLayer, weather: Weather) -> f32 {
     return clamp(2.0 * t - 1.0, 0.0, 1.0);
 }
 
-// Density at a place of one layer, 0 to 1. `fine` also asks for what the detail noise takes away.
-fn layer_density(layer: CloudLayer, weather: Weather, along_m: vec2f, altitude_m: f32, fine: bool) -> f32 {
+struct Density {
+    // 0 to 1.
+    value: f32,
+    // Before the detail noise has taken its part.
+    bulk: f32,
+}
+
+// Waves of the two octaves of detail, as shares of its scale: what is blurred over a wave is their mean.
+const COARSE_WAVE = 0.3;
+const FINER_WAVE = 0.08;
+
+// Density at a place of one layer. `fine` also asks for what the detail noise takes away, seen through a blur.
+fn layer_density(layer: CloudLayer, weather: Weather, along_m: vec2f, altitude_m: f32, fine: bool, blur_m: f32) -> Density {
     let h = (altitude_m - layer.base_m) * layer.inverse_thickness_per_m;
     let strength = strength_of(layer, weather);
     let wanted = profile(layer, weather, strength, clamp(h, 0.0, 1.0));
     var density = 0.0;
+    var bulk = 0.0;
     // A loop of one round at most: a software device runs what an `if` leaves out.
     for (var there = h > 0.0 && h < 1.0 && strength * wanted > 0.0; there; there = false) {
         let place = vec3f(along_m + clouds.shear_m * h, altitude_m);
         let noise = textureSampleLevel(shape_volume, linear_repeat, place * clouds.base_inverse_scale_per_m - clouds.base_drift, 0.0);
         let fbm = dot(noise.gba, vec3f(0.625, 0.25, 0.125));
-        let low = clamp(((noise.r + 1.0 - fbm) / (2.0 - fbm) - clouds.low_least) * clouds.low_inverse_range, 0.0, 1.0);
+        let billows = clamp(((noise.r + 1.0 - fbm) / (2.0 - fbm) - clouds.low_least) * clouds.low_inverse_range, 0.0, 1.0);
+        // A closed deck has no holes.
+        let closed = smoothstep(0.85, 1.0, layer.coverage);
+        let low = max(billows, LEAST_CLOSED * closed);
         let anvil = layer.anvil * smoothstep(0.55, 0.8, h);
         // Heaps narrow upwards into towers; the anvil widens again.
         let narrowed = strength * (1.0 - heaped(layer, weather) * TAPER * h * h * (1.0 - anvil));
         let cover = pow(narrowed, 1.0 - 0.75 * anvil);
         density = clamp((low * wanted - 1.0 + cover) / max(cover, 1e-3), 0.0, 1.0) * cover;
+        bulk = density;
         if fine {
             for (var eroded = density > 0.0 && density < BITE * clouds.erosion + 0.3; eroded; eroded = false) {
                 var at = place;
@@ -235,25 +259,29 @@ fn layer_density(layer: CloudLayer, weather: Weather, along_m: vec2f, altitude_m
                 let detail_at = at * clouds.detail_inverse_scale_per_m - clouds.detail_drift;
                 let coarse = textureSampleLevel(detail_volume, linear_repeat, detail_at, 0.0).a;
                 let finer = textureSampleLevel(detail_volume, linear_repeat, 3.7 * detail_at, 0.0).a;
-                let detail = smoothstep(0.15, 0.85, 0.6 * coarse + 0.4 * finer);
+                let blur = blur_m * clouds.detail_inverse_scale_per_m;
+                let sharp = 0.6 * (coarse - 0.5) * (1.0 - smoothstep(0.3, 1.5, blur / COARSE_WAVE))
+                    + 0.4 * (finer - 0.5) * (1.0 - smoothstep(0.3, 1.5, blur / FINER_WAVE));
+                let detail = smoothstep(0.15, 0.85, 0.5 + sharp);
                 // Wisps at the base, billows above.
-                let bite = mix(detail, 1.0 - detail, clamp(4.0 * h, 0.0, 1.0)) * BITE * clouds.erosion;
+                let bite = mix(detail, 1.0 - detail, clamp(4.0 * h, 0.0, 1.0)) * BITE * clouds.erosion * (1.0 - 0.7 * closed);
                 density = clamp((density - bite) / max(1.0 - bite, 1e-3), 0.0, 1.0);
             }
         }
     }
-    return density;
+    return Density(density, bulk);
 }
 
-// Extinction coefficient at a place of a band, 1/m.
-fn band_extinction(band: CloudBand, p: vec3f, altitude_m: f32, fine: bool) -> f32 {
+// Extinction coefficient at a place of a band, 1/m, and the density before the detail noise.
+fn band_extinction(band: CloudBand, p: vec3f, altitude_m: f32, fine: bool, blur_m: f32) -> Density {
     let along_m = along_sphere(p, altitude_m);
     let weather = weather_at(along_m);
-    var sum = 0.0;
+    var sum = Density(0.0, 0.0);
     for (var i = band.first; i < band.first + band.count; i++) {
-        let density = layer_density(clouds.layers[i], weather, along_m, altitude_m, fine);
+        let density = layer_density(clouds.layers[i], weather, along_m, altitude_m, fine, blur_m);
+        sum.bulk += density.bulk;
         // Rain comes from drops that are larger and denser: darker cloud.
-        sum += clouds.layers[i].extinction_per_m * (1.0 + 2.0 * clouds.precipitation * weather.rain) * density;
+        sum.value += clouds.layers[i].extinction_per_m * (1.0 + 2.0 * clouds.precipitation * weather.rain) * density.value;
     }
     return sum;
 }

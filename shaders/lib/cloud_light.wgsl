@@ -25,7 +25,7 @@ fn cloud_phase(nu: f32) -> f32 {
 // is that of g^{n+1}: this is the silver lining, wider and fainter the deeper it comes from. The rest is diffuse:
 // in the diffusion limit, with Eddington's closure and Marshak's boundaries, a slab of depth T = (1-g)(before + behind)
 // without absorption holds U(τ) = C₀ - 3 C₁ τ - 3 E e^{-τ}, C₁ = E (5 - e^{-T})/(4 + 3T), C₀ = 5E - 2C₁.
-fn lit_source(nu: f32, before: f32, behind: f32) -> f32 {
+fn lit_source(nu: f32, before: f32, behind: f32) -> vec3f {
     let g = clouds.asymmetry;
     let a = clouds.albedo.g;
     var sum = cloud_phase(nu) * exp(-before);
@@ -46,19 +46,19 @@ fn lit_source(nu: f32, before: f32, behind: f32) -> f32 {
     let diffuse = max(5.0 - 2.0 * c1 - 3.0 * c1 * near - 3.0 * exp(-near), 0.0);
     // Powder: at a sunlit rim there is little behind that could send light back (Schneider 2015). The slab knows that;
     // the control takes more.
-    let powder = 1.0 - clouds.powder * exp(-2.0 * (before + behind)) * (0.5 - 0.5 * nu);
-    return sum + powder * absorbed(whole) * diffuse / (4.0 * PI);
+    let powder = 1.0 - 0.5 * clouds.powder * exp(-before) * (0.5 - 0.5 * nu);
+    return vec3f(sum) + powder * absorbed(whole) * diffuse / (4.0 * PI);
 }
 
 // What absorption leaves of light that has been scattered often: diffusion's √(3(1-ω)(1-ωg)) times the way.
-fn absorbed(depth: f32) -> f32 {
+fn absorbed(depth: f32) -> vec3f {
     let g = clouds.asymmetry;
-    let a = clouds.albedo.g;
-    return a * exp(-sqrt(max(3.0 * (1.0 - a) * (1.0 - a * g), 0.0)) / (1.0 - g) * min(depth, 4.0));
+    let a = clouds.albedo;
+    return a * exp(-sqrt(max(3.0 * (1.0 - a) * (1.0 - a * g), vec3f(0.0))) / (1.0 - g) * min(depth, 4.0));
 }
 
 // The same of even light of unit irradiance on one side, `near` of it: U = 4 - 2 C₁ - 3 C₁ τ, C₁ = 4/(4 + 3T).
-fn ambient_source(near: f32, far: f32) -> f32 {
+fn ambient_source(near: f32, far: f32) -> vec3f {
     let g = clouds.asymmetry;
     let depth = (1.0 - g) * near;
     let whole = depth + (1.0 - g) * far;

@@ -54,6 +54,12 @@ const MOST_STEPS = 1400u;
 // After this many empty steps they grow by that factor.
 const EMPTY = 4u;
 const WIDE = 3.0;
+// Within a cloud's bulk, where the detail noise has its edges, they are closer.
+const CLOSER = 2.5;
+// Optical depth after which the light is found anew.
+const AGAIN = 0.15;
+// And after so many steps, however thin.
+const MOST_CELLS = 8.0;
 // Over which way clouds fade, where they are asked to.
 const HAZE_M = 3e4;
 // A ray through more air than this sees none of the clouds beyond.
@@ -94,7 +100,7 @@ fn depth_within(band: CloudBand, p: vec3f, altitude_m: f32, towards: vec3f, mu: 
         let far = f32(k + 1u) / f32(steps);
         let t = way_m * 0.5 * (near * near + far * far);
         let h = altitude_after(clouds.radius_m, altitude_m, mu, t);
-        sum += band_extinction(band, p + t * towards, h, false) * way_m * (far * far - near * near);
+        sum += band_extinction(band, p + t * towards, h, false, 0.0).value * way_m * (far * far - near * near);
     }
     return sum;
 }
@@ -150,33 +156,59 @@ fn march_band(band: CloudBand, ray: CloudRay, start_m: f32, stop_m: f32, left_be
     // Each step is a cell, looked at somewhere in it; the last one ends where the band does.
     var t = start_m;
     var empty = 0u;
+    var within = false;
+    var until_m = 0.0;
+    var source = vec3f(0.0);
+    // Of what is seen, the share since the light was found last.
+    var pending = 0.0;
+    let again = AGAIN / clouds.fineness;
+    var since = again;
     let most = u32(f32(MOST_STEPS) * max(clouds.fineness, 0.25));
     for (var k = 0u; k < most && t < stop_m && seen.left * left_before > OPAQUE; k++) {
-        let narrow_m = min(max(least_m, growth * t), stop_m - t);
-        let at = t + ray.jitter * narrow_m;
+        let usual_m = max(least_m, growth * t);
+        let narrow_m = min(select(usual_m, usual_m / CLOSER, within), stop_m - t);
+        // Not quite at a cell's end: an edge that begins with the cell belongs to it.
+        let at = t + mix(0.05, 0.95, ray.jitter) * narrow_m;
         let h = altitude_after(clouds.radius_m, view.altitude_m, ray.mu, at);
         let p = place_at(at, ray.direction);
-        let extinction = band_extinction(band, p, h, true);
-        if extinction <= 0.0 {
+        let density = band_extinction(band, p, h, true, narrow_m);
+        // The way walked back is gone in close steps, whatever is there.
+        if density.bulk <= 0.0 && t >= until_m {
+            within = false;
+            seen.light += pending * source;
+            pending = 0.0;
+            since = again;
             empty += 1u;
             t += select(narrow_m, WIDE * narrow_m, empty > EMPTY);
             continue;
         }
-        if empty > EMPTY + 1u {
-            // Walked in with a wide step: back to where the narrow ones begin.
+        if !within {
+            // Walked in: back to where the closer steps begin.
+            within = true;
+            until_m = t + narrow_m;
+            t = max(t - select(1.0, WIDE, empty > EMPTY) * usual_m, start_m);
             empty = 0u;
-            t = max(t - (WIDE - 1.0) * narrow_m, start_m);
             continue;
         }
-        empty = 0u;
-        let passed = exp(-extinction * narrow_m);
+        let depth = density.value * narrow_m;
+        let passed = exp(-depth);
         let share = seen.left * (1.0 - passed);
-        seen.light += share * source_at(band, p, h, extinction, ray.nu);
+        // Light changes over a mean free path: between two places where it is found it counts by their mean.
+        for (var anew = share > 0.0 && since >= again; anew; anew = false) {
+            let found = source_at(band, p, h, density.value, ray.nu);
+            seen.light += pending * 0.5 * (source + found);
+            source = found;
+            pending = 0.0;
+            since = 0.0;
+        }
+        since += max(depth, again / MOST_CELLS);
+        pending += share;
         seen.distance_m += share * at;
         weight += share;
         seen.left *= passed;
         t += narrow_m;
     }
+    seen.light += pending * source;
     seen.distance_m = select(start_m, seen.distance_m / max(weight, 1e-6), weight > 0.0);
     // What is left of an opaque cloud is nothing.
     if seen.left * left_before <= OPAQUE {

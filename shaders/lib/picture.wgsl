@@ -58,11 +58,11 @@ fn lens_glare(tone: Tone, angle: f32) -> vec3f {
 
 // R, G, B, A bytes, from the least significant. `seen.a` is 0 where the projection sees nothing, else one more than the
 // angle from the disc that glares. `curve`: 0 reinhard, 1 exponential, 2 aces, 3 agx; constant where it is called, so
-// that no device computes all four. `pixel` is the place in the whole frame.
-fn picture_pixel(tone: Tone, exposure_scale: f32, curve: u32, seen: vec4f, pixel: vec2u) -> u32 {
+// that no device computes all four. `disc`: what comes through to the lens of the disc that glares. `pixel` is the place in the whole frame.
+fn picture_pixel(tone: Tone, exposure_scale: f32, curve: u32, disc: f32, seen: vec4f, pixel: vec2u) -> u32 {
     let gain = select(tone.gain, LUMINANCE_PER_RADIANCE * exposure_scale, tone.metered == 1u);
     let is_seen = seen.a > 0.0;
-    let exposed = gain * (seen.rgb + select(vec3f(0.0), lens_glare(tone, seen.a - 1.0), is_seen));
+    let exposed = gain * (seen.rgb + select(vec3f(0.0), disc * lens_glare(tone, seen.a - 1.0), is_seen));
     let balanced = max(vec3f(dot(tone.white_r, exposed), dot(tone.white_g, exposed), dot(tone.white_b, exposed)), vec3f(0.0));
     var shown: vec3f;
     switch curve {

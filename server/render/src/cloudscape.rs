@@ -3,7 +3,7 @@
 
 use crate::{
     cloud_noise::CloudNoise,
-    engine::Tables,
+    cloud_sky::CloudSky,
     error::Error,
     gpu::{Gpu, Shape},
     kernel::{Bind, Recorder},
@@ -18,16 +18,17 @@ use crate::{
         cloud_shape::ShapeFrequencies,
         multi_scattering::MultiScattering,
     },
+    prepared::Tables,
     shader::Texel,
     uniforms::{
         Part, Standpoint,
-        clouds::{CloudFrameUniform, ShadowUniform, Sky},
+        clouds::{CloudFrameUniform, ShadowUniform},
     },
 };
 use glam::Vec3;
 use std::sync::Arc;
 use welkin_scene::{
-    Quality, Scene,
+    Quality,
     assets::SceneAssets,
     clouds::{Clouds, PlainMap},
     renderer::PassTime,
@@ -184,7 +185,7 @@ const fn shadow_steps(quality: Quality) -> u32 {
 /// How fine the steps are against those that the scene asks for.
 const fn fineness(quality: Quality) -> f64 {
     match quality {
-        Quality::Preview => 0.25,
+        Quality::Preview => 0.4,
         Quality::Final => 1.0,
     }
 }
@@ -262,13 +263,13 @@ impl CloudPasses {
     pub(crate) fn scape(
         &mut self,
         recorder: &mut Recorder<'_>,
-        scene: &Scene,
         tables: &Tables,
-        (sky, textures): (&Sky<'_>, CloudTextures),
+        (sky, textures): (&CloudSky<'_>, CloudTextures),
         light: CloudLight<'_>,
         quality: Quality,
     ) -> Cloudscape {
-        let clouds = Part::new(&sky.uniform(scene, fineness(quality)));
+        let scene = sky.scene;
+        let clouds = Part::new(&sky.uniform(fineness(quality)));
         let shade = sky.shade(&light.stand, scene.camera.position_m);
         let casts = scene.clouds.as_ref().is_some_and(|clouds| clouds.shadows);
         let shade = Part::new(&shade);

@@ -2,7 +2,8 @@
 
 use crate::{
     camera::CameraUniform,
-    cloudscape::{CloudLight, CloudPasses, Cloudscape},
+    cloud_sky::CloudSky,
+    cloudscape::{CloudLight, CloudPasses},
     cpu::airglow::{NightLight, night_light},
     error::Error,
     gpu::Gpu,
@@ -14,9 +15,8 @@ use crate::{
     night::Night,
     noise_cache::DiskCache,
     passes::{
-        Table,
         exposure::{EXPOSURE_BYTES, ExposurePass, meter_size},
-        multi_scattering::{MultiScattering, MultiScatteringPass, Wanted},
+        multi_scattering::{MultiScatteringPass, Wanted},
         probe::Probe,
         sky::{CloudInputs, Sky, SkyInputs, SkyTo},
         sky_view::SkyView,
@@ -24,13 +24,14 @@ use crate::{
         tone::{Tone, ToneInputs},
         transmittance::Transmittance,
     },
+    prepared::{Prepared, Tables, sky_inputs},
     renderer::RendererSettings,
     screen::{PICTURE_BYTES, RADIANCE_BYTES, Screen},
     sunlight::{DiscsLeft, direct_normal, moon_direct_normal},
-    uniforms::{AirUniform, Part, Standpoint, TileUniform, ToneUniform, clouds, night::AirglowUniform},
+    uniforms::{AirUniform, Part, Standpoint, TileUniform, ToneUniform, night::AirglowUniform},
 };
 use glam::UVec2;
-use std::{cell::OnceCell, sync::Arc};
+use std::cell::OnceCell;
 use welkin_scene::{
     Exposure, Method, Quality, Scene,
     renderer::{FrameFacts, FrameOrder, Output, PassTime},
@@ -56,37 +57,8 @@ pub(crate) struct Engine {
     pub(crate) gpu: Gpu,
 }
 
-/// What the air and the observer give, before any pixel.
-pub(crate) struct Tables {
-    pub(crate) plan: Plan,
-    pub(crate) air: Part,
-    pub(crate) stand: Standpoint,
-    pub(crate) transmittance: Arc<Table>,
-    pub(crate) multi_scattering: Arc<MultiScattering>,
-}
-
-/// A frame whose tables are ready and whose exposure is metered.
-pub(crate) struct Prepared {
-    tables: Tables,
-    lights: Lights,
-    camera: CameraUniform,
-    camera_part: Part,
-    observer: Part,
-    sky_view: Option<Arc<Table>>,
-    stars: Option<StarsOut>,
-    clouds: Option<Cloudscape>,
-    exposure: Arc<wgpu::Buffer>,
-    grain: u32,
-    /// What clouds leave of the light of sun and moon.
-    pub(crate) discs_left: DiscsLeft,
-    /// The device that holds it.
-    pub(crate) generation: u64,
-}
-
 /// Pixels to the side of one ray through the clouds, in a preview.
 const PREVIEW_GRAIN: u32 = 4;
-/// Of a ray through the clouds, in pixels that read tables.
-const CLOUD_WORK: u32 = 48;
 
 impl Engine {
     /// `generation` tells this device from those before it.
@@ -104,7 +76,7 @@ impl Engine {
                 Transmittance::new(&gpu),
                 MultiScatteringPass::new(),
                 SkyView::new(),
-                StarsPass::new(&gpu),
+                StarsPass::new(),
                 ExposurePass::new(&gpu),
                 Tone::new(),
                 Probe::new(),
@@ -159,7 +131,7 @@ impl Engine {
         gpu.guarded(|| {
             // Noise that a probe made is no part of this frame.
             drop(self.clouds.take_times());
-            let cloud_sky = clouds::Sky::new(scene);
+            let cloud_sky = CloudSky::new(scene);
             let textures = cloud_sky
                 .as_ref()
                 .map(|sky| self.clouds.textures(gpu, sky.clouds, &order.assets))
@@ -196,14 +168,14 @@ impl Engine {
             });
             let clouds = cloud_sky.zip(textures).map(|(sky, textures)| {
                 let light = CloudLight::new(&tables.stand, &night, &lights);
-                self.clouds.scape(
-                    &mut recorder,
-                    scene,
-                    &tables,
-                    (&sky, textures),
-                    light,
-                    order.quality,
-                )
+                self.clouds
+                    .scape(&mut recorder, &tables, (&sky, textures), light, order.quality)
+            });
+            let disc_clouds = clouds.as_ref().map(|scape| {
+                let glare = &lights.glare;
+                let (towards, diameter_deg) = (glare.direction, glare.diameter_deg);
+                self.sky
+                    .clouds_before_disc(&mut recorder, scape, towards, diameter_deg)
             });
             let grain = match order.quality {
                 Quality::Preview => PREVIEW_GRAIN,
@@ -245,6 +217,7 @@ impl Engine {
                     sky_view,
                     stars,
                     clouds,
+                    disc_clouds,
                     exposure,
                     grain,
                     discs_left,
@@ -283,6 +256,8 @@ impl Engine {
                 curve: order.scene.display.tone_curve,
                 settings: &settings,
                 exposure: &frame.exposure,
+                disc_clouds: frame.disc_clouds.as_ref(),
+                any_table: &frame.tables.transmittance,
             };
             let display = order.output == Output::Display;
             // Whoever comes twice turns at the display: for them the radiance is kept.
@@ -295,12 +270,13 @@ impl Engine {
                 } else {
                     SkyTo::Radiance(&buffers.radiance)
                 };
-                self.sky.run(&mut recorder, inputs, tile, to);
+                let clouds = self.sky.run(&mut recorder, inputs, tile, to);
                 if let Some(stars) = &frame.stars {
                     let reads = StarsInputs {
                         air: inputs.air,
                         view: inputs.view,
                         transmittance: inputs.transmittance,
+                        clouds: clouds.as_ref().map(|table| (table, frame.grain)),
                     };
                     self.stars
                         .run(&mut recorder, reads, stars, tile, &buffers.radiance);
@@ -339,46 +315,6 @@ impl Engine {
             };
             Ok((taken, ev, times))
         })
-    }
-}
-
-impl Prepared {
-    fn sky_inputs(&self) -> SkyInputs<'_> {
-        let parts = [self.lights.view(false), &self.camera_part, &self.observer];
-        let grain = self.grain;
-        SkyInputs {
-            clouds: self.clouds.as_ref().map(|scape| CloudInputs { scape, grain }),
-            ..sky_inputs(&self.tables, &self.lights, false, parts, self.sky_view.as_deref())
-        }
-    }
-
-    /// About how many times the work of a pixel that reads tables a pixel takes.
-    pub(crate) fn work_per_pixel(&self) -> u32 {
-        let clouds = if self.clouds.is_some() { CLOUD_WORK } else { 0 };
-        self.tables.plan.work_per_pixel() + clouds / (self.grain * self.grain)
-    }
-}
-
-fn sky_inputs<'a>(
-    tables: &'a Tables,
-    lights: &'a Lights,
-    metered: bool,
-    [view, camera, observer]: [&'a Part; 3],
-    sky_view: Option<&'a Table>,
-) -> SkyInputs<'a> {
-    SkyInputs {
-        air: &tables.air,
-        view,
-        camera,
-        observer,
-        plan: tables.plan,
-        transmittance: &tables.transmittance,
-        irradiance: &tables.multi_scattering.irradiance,
-        sky_view,
-        source: &tables.multi_scattering.source,
-        airglow: lights.airglow(),
-        moon: lights.moon(metered),
-        clouds: None,
     }
 }
 

@@ -1,8 +1,9 @@
 //! One frame, tile by tile.
 
 use crate::{
-    engine::{Engine, Prepared, facts},
+    engine::{Engine, facts},
     error::Error,
+    prepared::Prepared,
     uniforms::TileUniform,
 };
 use glam::UVec2;
@@ -24,7 +25,7 @@ const TILE_MS: std::ops::Range<f64> = 8.0..30.0;
 /// Sizes between which the budget moves, pixels. The largest keeps 24 MiB of radiance on the device.
 const TILE_PIXELS: std::ops::RangeInclusive<u32> = 1 << 13..=3 << 18;
 
-/// Pixels of a row that a pass may compute together.
+/// Pixels of a row or a column that a pass may compute together.
 pub(crate) const RUN: u32 = 8;
 
 /// Fewer would leave a device's lanes idle.
@@ -58,7 +59,9 @@ impl TileBudget {
         };
         let width = (frame.x - from.x).min(whole_runs);
         let height = if width == frame.x {
-            (pixels / width).clamp(1, frame.y - from.y)
+            let rows = pixels / width;
+            let whole_runs = if rows < RUN { rows } else { rows - rows % RUN };
+            whole_runs.clamp(1, frame.y - from.y)
         } else {
             1
         };

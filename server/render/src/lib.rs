@@ -6,6 +6,7 @@
 mod camera;
 mod catalogue;
 mod cloud_noise;
+mod cloud_sky;
 mod cloudscape;
 mod colour;
 mod cpu;
@@ -25,6 +26,7 @@ mod night;
 mod noise_cache;
 mod passes;
 mod phase;
+mod prepared;
 mod probe_job;
 mod quadrature;
 mod renderer;

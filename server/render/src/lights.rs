@@ -34,6 +34,8 @@ pub(crate) struct Glare {
     /// At the observer, W/m²; zero where the disc is not shown.
     pub(crate) irradiance_w_m2: [f64; 3],
     pub(crate) diameter_deg: f64,
+    /// Towards it.
+    pub(crate) direction: [f64; 3],
 }
 
 impl Lights {
@@ -55,10 +57,12 @@ impl Lights {
         let of_sun = Glare {
             irradiance_w_m2: shown(scene.sun.disc, direct_normal(scene, stand, &night)),
             diameter_deg: scene.sun.angular_diameter_deg,
+            direction: stand.sun.to_array(),
         };
         let of_moon = scene.moon.as_ref().zip(night.moon).map(|(moon, over)| Glare {
             irradiance_w_m2: shown(moon.disc, moon_direct_normal(scene, stand, &night)),
             diameter_deg: over.seen.angular_diameter_deg,
+            direction: over.seen.direction,
         });
         let of_moon = of_moon.filter(|moon| moon.illuminance() > of_sun.illuminance());
         let moon = night.moon.map(|over| MoonParts {

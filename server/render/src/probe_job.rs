@@ -1,13 +1,14 @@
 //! The numbers behind the picture, piece by piece.
 
 use crate::{
+    cloud_sky::CloudSky,
     engine::Engine,
     error::Error,
     night::Night,
     passes::probe::{CHUNK, CLOUDED_CHUNK, Seen, Sight},
     quadrature::{CLEAR, CLOUDED, Node, harmonics, sphere},
     sunlight::{DiscsLeft, direct_normal, moon_direct_normal},
-    uniforms::{Standpoint, clouds},
+    uniforms::Standpoint,
 };
 use glam::DVec3;
 use welkin_scene::{Irradiance, ProbeAnswer, renderer::ProbeOrder};
@@ -27,7 +28,7 @@ impl ProbeJob {
     pub(crate) fn new(order: ProbeOrder) -> Self {
         let request = &order.request;
         let stand = Standpoint::new(&request.scene);
-        let (fineness, chunk) = if clouds::Sky::new(&request.scene).is_some() {
+        let (fineness, chunk) = if CloudSky::new(&request.scene).is_some() {
             (CLOUDED, CLOUDED_CHUNK)
         } else {
             (CLEAR, CHUNK)

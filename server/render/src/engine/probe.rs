@@ -2,6 +2,7 @@
 
 use super::{Engine, airglow, moon_face};
 use crate::{
+    cloud_sky::CloudSky,
     cloudscape::CloudLight,
     error::Error,
     kernel::Recorder,
@@ -9,7 +10,6 @@ use crate::{
     night::Night,
     passes::probe::{ProbeInputs, Seen, Sight},
     sunlight::DiscsLeft,
-    uniforms::clouds,
 };
 use welkin_scene::{Quality, Scene, assets::SceneAssets};
 
@@ -23,7 +23,7 @@ impl Engine {
     ) -> Result<(Vec<Seen>, DiscsLeft), Error> {
         let gpu = &self.gpu;
         gpu.guarded(|| {
-            let cloud_sky = clouds::Sky::new(scene);
+            let cloud_sky = CloudSky::new(scene);
             let textures = cloud_sky
                 .as_ref()
                 .map(|sky| self.clouds.textures(gpu, sky.clouds, assets))
@@ -37,14 +37,8 @@ impl Engine {
             let lights = Lights::new(scene, &tables.stand, night, glow, face, None);
             let clouds = cloud_sky.zip(textures).map(|(sky, textures)| {
                 let light = CloudLight::new(&tables.stand, &night, &lights);
-                self.clouds.scape(
-                    &mut recorder,
-                    scene,
-                    &tables,
-                    (&sky, textures),
-                    light,
-                    Quality::Final,
-                )
+                self.clouds
+                    .scape(&mut recorder, &tables, (&sky, textures), light, Quality::Final)
             });
             recorder.finish(&[], |_| ())?;
             let discs_left = clouds.as_ref().map_or(Ok(DiscsLeft::default()), |scape| {

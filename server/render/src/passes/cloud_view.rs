@@ -10,6 +10,9 @@ use crate::{
     uniforms::{Part, TileUniform, clouds::CloudTileUniform},
 };
 
+/// Texels beyond the tile on every side.
+const MARGIN: u32 = 1;
+
 pub(crate) struct CloudView {
     kernels: Variants,
 }
@@ -21,7 +24,7 @@ impl CloudView {
         }
     }
 
-    /// A table of the tile's size over `grain`, rounded up: what to add in R, G and B, and what comes through in alpha.
+    /// A table of the tile's size over `grain`, rounded up, with a margin of one texel: what to add in R, G and B, and what comes through in alpha.
     pub(crate) fn run(
         &mut self,
         recorder: &mut Recorder<'_>,
@@ -31,7 +34,7 @@ impl CloudView {
         grain: u32,
     ) -> Table {
         let gpu = recorder.gpu;
-        let size_px = tile.size_px.map(|side| side.div_ceil(grain));
+        let size_px = tile.size_px.map(|side| side.div_ceil(grain) + 2 * MARGIN);
         let view = gpu.written("cloud_view", [size_px.x, size_px.y, 1], Shape::Flat, Texel::Float);
         let parts = scape.upload(gpu);
         let place = Part::new(&CloudTileUniform {

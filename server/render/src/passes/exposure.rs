@@ -65,7 +65,7 @@ impl ExposurePass {
             let gpu = recorder.gpu;
             let pixels = u64::from(size_px.x) * u64::from(size_px.y);
             let radiance = gpu.buffer("metered picture", 16 * pixels, wgpu::BufferUsages::STORAGE);
-            sky.run(recorder, inputs, tile, SkyTo::Radiance(&radiance));
+            drop(sky.run(recorder, inputs, tile, SkyTo::Radiance(&radiance)));
             let exposure = new_exposure(gpu);
             let meter = meter.upload(gpu, "meter");
             let binds = [

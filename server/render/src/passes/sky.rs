@@ -6,6 +6,7 @@ use super::{
     tone::{ToneInputs, curve_code},
 };
 use crate::{
+    camera::{CameraUniform, projection_code},
     cloudscape::Cloudscape,
     frame_job::RUN,
     kernel::{Bind, Recorder, Variants},
@@ -18,7 +19,8 @@ use crate::{
         night::MoonUniform,
     },
 };
-use welkin_scene::Method;
+use glam::UVec2;
+use welkin_scene::{Camera, Direction, Method, Projection};
 
 /// Where the pass writes.
 pub(crate) enum SkyTo<'a> {
@@ -90,6 +92,31 @@ impl SkyInputs<'_> {
 }
 
 impl Sky {
+    /// The clouds before a disc: a table of 2 × 2 rays.
+    pub(crate) fn clouds_before_disc(
+        &mut self,
+        recorder: &mut Recorder<'_>,
+        scape: &Cloudscape,
+        towards: [f64; 3],
+        diameter_deg: f64,
+    ) -> Table {
+        let camera = Camera {
+            direction: Direction::Vector(towards),
+            projection: Projection::Perspective {
+                vertical_fov_deg: diameter_deg.clamp(0.1, 10.0),
+            },
+            ..Camera::default()
+        };
+        let size_px = UVec2::splat(2);
+        let tile = TileUniform {
+            origin_px: UVec2::ZERO,
+            size_px,
+        };
+        let projection = projection_code(&camera.projection);
+        let camera = Part::new(&CameraUniform::new(&camera, size_px));
+        self.clouds.run(recorder, scape, (&camera, projection), tile, 1)
+    }
+
     pub(crate) fn new() -> Self {
         Self {
             kernels: Variants::new(&shader::SKY),
@@ -97,25 +124,25 @@ impl Sky {
         }
     }
 
-    /// Writes one tile.
+    /// Writes one tile. Gives the table of its clouds.
     pub(crate) fn run(
         &mut self,
         recorder: &mut Recorder<'_>,
         inputs: SkyInputs<'_>,
         tile: TileUniform,
         to: SkyTo<'_>,
-    ) {
+    ) -> Option<Table> {
         let gpu = recorder.gpu;
         // A buffer that a variant does not write must still be bound, and bound once.
         let unused = || gpu.buffer("unused", 16, wgpu::BufferUsages::STORAGE);
-        let (radiance, picture, exposure, settings, curve) = match to {
+        let (radiance, picture, exposure, settings, tone) = match to {
             SkyTo::Radiance(radiance) => {
                 let nothing = Part::new(&ToneUniform::default());
                 (radiance, &unused(), &unused(), nothing, None)
             }
             SkyTo::Picture(tone, picture) => {
                 let settings = Part::new(tone.settings);
-                (&unused(), picture, tone.exposure, settings, Some(tone.curve))
+                (&unused(), picture, tone.exposure, settings, Some(tone))
             }
         };
         let settings = settings.upload(gpu, "tone");
@@ -147,6 +174,7 @@ impl Sky {
         let moon_sky_view = inputs.moon.and_then(|m| m.sky_view);
         let face = inputs.moon.map_or(&inputs.transmittance.view, |m| m.face);
         let airglow = inputs.airglow.upload(gpu, "airglow");
+        let disc = tone.and_then(|tone| tone.disc_clouds);
         let binds = [
             Bind::Buffer(&air),
             Bind::Buffer(&view),
@@ -179,6 +207,7 @@ impl Sky {
                     .map_or(&inputs.source.view, |c| &c.scape.shadow.view),
             ),
             Bind::Buffer(&cloud_frame),
+            Bind::Table(disc.map_or(&inputs.transmittance.view, |table| &table.view)),
         ];
         let flag = |on: bool| f64::from(u8::from(on));
         let mut constants = vec![
@@ -196,8 +225,8 @@ impl Sky {
             1
         };
         constants.push(("SPAN", f64::from(span)));
-        if let Some(curve) = curve {
-            constants.extend([("PICTURE", 1.0), ("CURVE", curve_code(curve))]);
+        if let Some(tone) = tone {
+            constants.extend([("PICTURE", 1.0), ("CURVE", curve_code(tone.curve))]);
         }
         if inputs.sky_view.is_none() {
             constants.extend(inputs.plan.march_constants());
@@ -205,5 +234,6 @@ impl Sky {
         let kernel = self.kernels.get(gpu, &constants);
         let threads = [tile.size_px.x.div_ceil(span), tile.size_px.y, 1];
         recorder.dispatch(kernel, &binds, threads);
+        clouds
     }
 }

@@ -3,12 +3,12 @@
 use super::Table;
 use crate::{
     gpu::Gpu,
-    kernel::{Bind, Kernel, Recorder},
+    kernel::{Bind, Recorder, Variants},
     lens::Lens,
     memo::{Fingerprint, Memo},
     shader,
     starfield::{Glint, Screen, glints, within},
-    uniforms::{Part, TileUniform, night::StretchUniform},
+    uniforms::{Part, TileUniform, narrow, night::StretchUniform},
 };
 use bytemuck::Zeroable;
 use glam::UVec2;
@@ -16,7 +16,7 @@ use std::sync::Arc;
 use welkin_scene::{Camera, Firmament, Stars};
 
 pub(crate) struct StarsPass {
-    kernel: Kernel,
+    kernels: Variants,
     memo: Memo<Starfield>,
 }
 
@@ -47,12 +47,14 @@ pub(crate) struct StarsInputs<'a> {
     pub(crate) air: &'a Part,
     pub(crate) view: &'a Part,
     pub(crate) transmittance: &'a Table,
+    /// The tile's clouds, and pixels to the side of their texels.
+    pub(crate) clouds: Option<(&'a Table, u32)>,
 }
 
 impl StarsPass {
-    pub(crate) fn new(gpu: &Gpu) -> Self {
+    pub(crate) fn new() -> Self {
         Self {
-            kernel: Kernel::new(gpu, &shader::STARS),
+            kernels: Variants::new(&shader::STARS),
             memo: Memo::new(4),
         }
     }
@@ -86,7 +88,7 @@ impl StarsPass {
 
     /// Adds the stars of one tile to its radiance.
     pub(crate) fn run(
-        &self,
+        &mut self,
         recorder: &mut Recorder<'_>,
         inputs: StarsInputs<'_>,
         stars: &StarsOut,
@@ -102,6 +104,10 @@ impl StarsPass {
             count: count(part.len()),
             origin,
             out: stars.out,
+            width: tile.size_px.x,
+            cloud_fineness: inputs
+                .clouds
+                .map_or(1.0, |(_, grain)| 1.0 / narrow(f64::from(grain))),
         };
         if part.is_empty() {
             return;
@@ -119,7 +125,15 @@ impl StarsPass {
             Bind::LinearClamp,
             Bind::Buffer(&field.buffer),
             Bind::Buffer(radiance),
+            Bind::Table(
+                &inputs
+                    .clouds
+                    .map_or(inputs.transmittance, |(table, _)| table)
+                    .view,
+            ),
         ];
-        recorder.dispatch(&self.kernel, &binds, [threads, 1, 1]);
+        let clouds = f64::from(u8::from(inputs.clouds.is_some()));
+        let kernel = self.kernels.get(gpu, &[("CLOUDS", clouds)]);
+        recorder.dispatch(kernel, &binds, [threads, 1, 1]);
     }
 }

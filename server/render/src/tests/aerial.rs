@@ -3,7 +3,6 @@
 use super::{engine, evaluate};
 use crate::{
     cpu::phase::{cornette_shanks, rayleigh},
-    engine::Tables,
     gpu::Gpu,
     kernel::Recorder,
     method::Plan,
@@ -12,6 +11,7 @@ use crate::{
         multi_scattering::{MultiScatteringPass, Wanted},
         transmittance::Transmittance,
     },
+    prepared::Tables,
     shader,
     uniforms::{AirUniform, Part, Standpoint},
 };

@@ -357,7 +357,9 @@ fn night() {
             first: u32,
             count: u32,
             origin: u32,
-            out: f32
+            out: f32,
+            width: u32,
+            cloud_fineness: f32
         }
     );
     check(&[&shader::STARS], "Stretch", &part, &f);

@@ -19,6 +19,8 @@ pub(crate) struct StretchUniform {
     pub(crate) count: u32,
     pub(crate) origin: u32,
     pub(crate) out: f32,
+    pub(crate) width: u32,
+    pub(crate) cloud_fineness: f32,
 }
 
 /// `Airglow` of `lib/airglow.wgsl`.

@@ -56,6 +56,8 @@ fn lit_over_shaded(density: f64) -> f64 {
                 "coverage": 1, "density": density,
                 "layers": [{"kind": "volume", "base_m": 2000, "top_m": 3000, "type": 0.5}],
                 "weather_map": {"kind": "uniform", "coverage": 1, "type": 0.5},
+                // Even, so that both look at the same.
+                "shape": {"low_freq_max": 1e-3, "high_freq_modifier": 0},
                 "phase": {"kind": "dual-henyey-greenstein", "forward": 0, "backward": 0},
             },
         }));
@@ -89,9 +91,9 @@ fn vectors_without_length_are_refused() {
 #[test]
 fn coverage_and_density_bring_clouds() {
     let mut before = 0.0;
-    for coverage in [0.2, 0.4, 0.6, 0.9] {
+    for coverage in [0.1, 0.3, 0.5, 1.0] {
         let found = cloudiness(&clouds(json!({"coverage": coverage})));
-        assert!(found > before + 0.05, "{coverage}: {found}, {before}");
+        assert!(found > before + 0.03, "{coverage}: {found}, {before}");
         before = found;
     }
     let mut before = 0.0;

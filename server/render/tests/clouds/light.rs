@@ -133,7 +133,8 @@ fn colours_tint() {
         let left = [0, 1, 2].map(|c| red.mean()[c] / white.mean()[c]);
         println!("{field}: {left:?}");
         assert!((left[0] - 1.0).abs() < 0.02, "{field}: {left:?}");
-        assert!(left[1] < 0.95 && left[2] < left[1], "{field}: {left:?}");
+        // More of the blue comes from the sky, which the sun's colour leaves alone.
+        assert!(left[1] < 0.95 && left[2] < 0.95, "{field}: {left:?}");
     }
 }
 

@@ -6,11 +6,12 @@ mod light;
 mod slab;
 
 use crate::{
+    cloud_sky::CloudSky,
     cloudscape::{CloudPasses, CloudTextures},
     gpu::Gpu,
     kernel::Bind,
     noise_cache::DiskCache,
-    uniforms::{Part, clouds::Sky},
+    uniforms::Part,
 };
 use serde_json::{Value, json};
 use welkin_scene::Scene;
@@ -38,11 +39,11 @@ struct Ready {
 
 impl Ready {
     fn new(gpu: &Gpu, passes: &mut CloudPasses, scene: &Scene) -> Self {
-        let sky = Sky::new(scene).expect("the scene has clouds");
+        let sky = CloudSky::new(scene).expect("the scene has clouds");
         let assets = welkin_scene::assets::SceneAssets::default();
         Self {
             textures: passes.textures(gpu, sky.clouds, &assets).unwrap(),
-            clouds: Part::new(&sky.uniform(scene, 1.0)).upload(gpu, "clouds"),
+            clouds: Part::new(&sky.uniform(1.0)).upload(gpu, "clouds"),
         }
     }
 

@@ -41,6 +41,7 @@ impl Filled {
                 inverse_thickness_per_m: f32,
                 cloud_type: f32,
                 coverage: f32,
+                share: f32,
                 extinction_per_m: f32,
                 anvil: f32,
             })

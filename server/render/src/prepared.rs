@@ -1,0 +1,88 @@
+//! A frame whose tables are ready.
+
+use crate::{
+    camera::CameraUniform,
+    cloudscape::Cloudscape,
+    lights::Lights,
+    method::Plan,
+    passes::{
+        Table,
+        multi_scattering::MultiScattering,
+        sky::{CloudInputs, SkyInputs},
+        stars::StarsOut,
+    },
+    sunlight::DiscsLeft,
+    uniforms::{Part, Standpoint},
+};
+use std::sync::Arc;
+
+/// What the air and the observer give, before any pixel.
+pub(crate) struct Tables {
+    pub(crate) plan: Plan,
+    pub(crate) air: Part,
+    pub(crate) stand: Standpoint,
+    pub(crate) transmittance: Arc<Table>,
+    pub(crate) multi_scattering: Arc<MultiScattering>,
+}
+
+/// A frame whose tables are ready and whose exposure is metered.
+pub(crate) struct Prepared {
+    pub(crate) tables: Tables,
+    pub(crate) lights: Lights,
+    pub(crate) camera: CameraUniform,
+    pub(crate) camera_part: Part,
+    pub(crate) observer: Part,
+    pub(crate) sky_view: Option<Arc<Table>>,
+    pub(crate) stars: Option<StarsOut>,
+    pub(crate) clouds: Option<Cloudscape>,
+    pub(crate) disc_clouds: Option<Table>,
+    pub(crate) exposure: Arc<wgpu::Buffer>,
+    pub(crate) grain: u32,
+    /// What clouds leave of the light of sun and moon.
+    pub(crate) discs_left: DiscsLeft,
+    /// The device that holds it.
+    pub(crate) generation: u64,
+}
+
+/// Of a ray through the clouds, in pixels that read tables.
+const CLOUD_WORK: u32 = 48;
+
+impl Prepared {
+    pub(crate) fn sky_inputs(&self) -> SkyInputs<'_> {
+        let parts = [self.lights.view(false), &self.camera_part, &self.observer];
+        let grain = self.grain;
+        SkyInputs {
+            clouds: self.clouds.as_ref().map(|scape| CloudInputs { scape, grain }),
+            ..sky_inputs(&self.tables, &self.lights, false, parts, self.sky_view.as_deref())
+        }
+    }
+
+    /// About how many times the work of a pixel that reads tables a pixel takes.
+    pub(crate) fn work_per_pixel(&self) -> u32 {
+        let clouds = if self.clouds.is_some() { CLOUD_WORK } else { 0 };
+        self.tables.plan.work_per_pixel() + clouds / (self.grain * self.grain)
+    }
+}
+
+pub(crate) fn sky_inputs<'a>(
+    tables: &'a Tables,
+    lights: &'a Lights,
+    metered: bool,
+    [view, camera, observer]: [&'a Part; 3],
+    sky_view: Option<&'a Table>,
+) -> SkyInputs<'a> {
+    SkyInputs {
+        air: &tables.air,
+        view,
+        camera,
+        observer,
+        plan: tables.plan,
+        transmittance: &tables.transmittance,
+        irradiance: &tables.multi_scattering.irradiance,
+        sky_view,
+        source: &tables.multi_scattering.source,
+        airglow: lights.airglow(),
+        moon: lights.moon(metered),
+        clouds: None,
+    }
+}
