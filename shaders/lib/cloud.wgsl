@@ -1,5 +1,6 @@
 // Where there is cloud, and how dense: weather, height profile and noise (Schneider 2015, 2017). Whoever imports from here
 // binds these first.
+import package::lib::geometry::along_sphere;
 
 // A layer of cloud with a thickness.
 struct CloudLayer {
@@ -105,14 +106,6 @@ struct Clouds {
 @group(0) @binding(5) var first_weather: texture_2d<f32>;
 @group(0) @binding(6) var second_weather: texture_2d<f32>;
 @group(0) @binding(7) var sheet_texture: texture_2d<f32>;
-
-// The way along the sphere from the scene's origin to below a place: R times the angle, whose sine is s/|p|, by the series
-// of asin (within 1e-3 up to 50°), so that from orbit nothing is stretched.
-fn along_sphere(p: vec3f, altitude_m: f32) -> vec2f {
-    let r = clouds.radius_m + altitude_m;
-    let x2 = min(dot(p.xy, p.xy) / (r * r), 1.0);
-    return p.xy * (clouds.radius_m / r) * (1.0 + x2 * (1.0 / 6.0 + x2 * (3.0 / 40.0 + x2 * (15.0 / 336.0 + x2 * 0.09))));
-}
 
 struct Weather {
     coverage: f32,
@@ -274,7 +267,7 @@ fn layer_density(layer: CloudLayer, weather: Weather, along_m: vec2f, altitude_m
 
 // Extinction coefficient at a place of a band, 1/m, and the density before the detail noise.
 fn band_extinction(band: CloudBand, p: vec3f, altitude_m: f32, fine: bool, blur_m: f32) -> Density {
-    let along_m = along_sphere(p, altitude_m);
+    let along_m = along_sphere(clouds.radius_m, p, altitude_m);
     let weather = weather_at(along_m);
     var sum = Density(0.0, 0.0);
     for (var i = band.first; i < band.first + band.count; i++) {
@@ -288,7 +281,7 @@ fn band_extinction(band: CloudBand, p: vec3f, altitude_m: f32, fine: bool, blur_
 
 // Vertical optical depth of a sheet.
 fn sheet_optical_depth(sheet: CloudSheet, p: vec3f, altitude_m: f32) -> f32 {
-    let along_m = along_sphere(p, altitude_m);
+    let along_m = along_sphere(clouds.radius_m, p, altitude_m);
     let at = vec2f(dot(along_m, sheet.turn), dot(along_m, vec2f(-sheet.turn.y, sheet.turn.x))) - sheet.drift;
     let first = textureSampleLevel(sheet_texture, linear_repeat, at, 0.0);
     let second = textureSampleLevel(sheet_texture, linear_repeat, 0.31 * at + vec2f(0.37, 0.11), 0.0);

@@ -1,6 +1,6 @@
 // Shadows of clouds: for each band and sheet a map of its optical depth towards the light, by where the way to the light
 // crosses the band's middle.
-import package::lib::geometry::distance_to_top;
+import package::lib::geometry::{along_sphere, distance_to_top};
 import package::lib::light::Shaded;
 
 struct CloudShade {
@@ -31,13 +31,6 @@ fn shade_place(shade: CloudShade, coordinate: vec2f) -> vec2f {
     return shade.centre_m + shade.reach_m * u * abs(u);
 }
 
-// The way along the sphere to below p, which is near the sphere.
-fn shade_along(radius_m: f32, p: vec3f, altitude_m: f32) -> vec2f {
-    let r = radius_m + altitude_m;
-    let x2 = min(dot(p.xy, p.xy) / (r * r), 1.0);
-    return p.xy * (radius_m / r) * (1.0 + x2 * (1.0 / 6.0 + x2 * (3.0 / 40.0 + x2 * (15.0 / 336.0 + x2 * 0.09))));
-}
-
 // Optical depth towards the light of all bands over a place. `mu` is the light's cosine with the zenith there.
 fn shade_depth(
     shade: CloudShade,
@@ -54,7 +47,7 @@ fn shade_depth(
         let middle_m = shade.middles_m[i / 4u][i % 4u];
         let over = max(middle_m - altitude_m, 0.0);
         let way_m = distance_to_top(radius_m, middle_m, min(altitude_m, middle_m), mu);
-        let at = shade_coordinate(shade, shade_along(radius_m, p + way_m * light, middle_m));
+        let at = shade_coordinate(shade, along_sphere(radius_m, p + way_m * light, middle_m));
         let depth = textureSampleLevel(maps, linear_clamp, at, i, 0.0).r;
         sum += select(0.0, depth, over > 0.0);
     }

@@ -127,3 +127,11 @@ fn shadow_stretch(radius_m: f32, altitude_m: f32, mu: f32, mu_s: f32, nu: f32, t
     }
     return stretch;
 }
+
+// The way along the sphere from the scene's origin to below a place: R times the angle, whose sine is s/|p|, by the series
+// of asin (within 1e-3 up to 50°), so that from orbit nothing is stretched.
+fn along_sphere(radius_m: f32, p: vec3f, altitude_m: f32) -> vec2f {
+    let r = radius_m + altitude_m;
+    let x2 = min(dot(p.xy, p.xy) / (r * r), 1.0);
+    return p.xy * (radius_m / r) * (1.0 + x2 * (1.0 / 6.0 + x2 * (3.0 / 40.0 + x2 * (15.0 / 336.0 + x2 * 0.09))));
+}
