@@ -2,9 +2,10 @@
 //! published shaders that Welkin started from and prints what a frame of them costs.
 
 use super::Size;
-use serde::Deserialize;
+use serde::{Deserialize, Serialize, de::DeserializeOwned};
 use std::{
-    path::PathBuf,
+    fmt,
+    path::{Path, PathBuf},
     process::{Command, Output},
 };
 
@@ -28,6 +29,31 @@ pub(super) struct Measured {
     pub(super) renderer: String,
 }
 
+/// How far the frame of `listing` is from what it approximates: relative RMSE of radiance against the same shader with
+/// 1024 steps and about 64 light samples.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub(crate) struct Off {
+    /// Light samples over the same way.
+    pub(crate) steps_error: f64,
+    /// Light samples all the way out of the clouds.
+    pub(crate) light_path_error: f64,
+}
+
+impl fmt::Display for Off {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(
+            out,
+            "baseline listing: error {:.2e} against its own with finer steps, {:.2e} with light followed out of the clouds",
+            self.steps_error, self.light_path_error
+        )
+    }
+}
+
+/// Finds [`Off`].
+const OFF: &str = include_str!("baseline_off.py");
+/// What each pixel shows depends on its direction alone: as many as need few seconds, over the whole frame.
+const OFF_SIZE: Size = Size::new(90, 60);
+
 impl Baseline {
     pub(super) fn in_folder(folder: PathBuf) -> Self {
         if folder.join("run.py").is_file() {
@@ -40,22 +66,48 @@ impl Baseline {
     /// One frame of one case. Where it does not run, the baseline is absent from then on.
     pub(super) fn measure(&mut self, case: &str, size: Size) -> Option<Measured> {
         let Self::At(folder) = self else { return None };
-        // -B: the folder may be read-only, and is not ours.
-        let output = Command::new("python3")
-            .arg("-B")
+        let mut command = python();
+        command
             .arg(folder.join("run.py"))
             .args([case, "--frames", "1"])
             .args(["--width-px", &size.width_px.to_string()])
-            .args(["--height-px", &size.height_px.to_string()])
-            .output();
-        let read = output
-            .map_err(|e| format!("python3: {e}"))
-            .and_then(|output| read(&output));
-        read.map_err(|reason| *self = Self::Absent(reason)).ok()
+            .args(["--height-px", &size.height_px.to_string()]);
+        run(command).map_err(|reason| *self = Self::Absent(reason)).ok()
+    }
+
+    /// How far its frame is off; none where there is no baseline.
+    ///
+    /// # Errors
+    /// The reason why that cannot be found.
+    pub(super) fn off(&self) -> Result<Option<Off>, String> {
+        let Self::At(folder) = self else { return Ok(None) };
+        off(folder, OFF_SIZE).map(Some)
     }
 }
 
-fn read(output: &Output) -> Result<Measured, String> {
+fn off(folder: &Path, size: Size) -> Result<Off, String> {
+    let mut command = python();
+    command
+        .args(["-c", OFF])
+        .arg(folder)
+        .args([size.width_px.to_string(), size.height_px.to_string()]);
+    run(command)
+}
+
+fn python() -> Command {
+    let mut command = Command::new("python3");
+    // The folder may be read-only, and is not ours.
+    command.arg("-B");
+    command
+}
+
+/// What it prints.
+fn run<T: DeserializeOwned>(mut command: Command) -> Result<T, String> {
+    let output = command.output().map_err(|e| format!("python3: {e}"))?;
+    read(&output)
+}
+
+fn read<T: DeserializeOwned>(output: &Output) -> Result<T, String> {
     if output.status.success() {
         return serde_json::from_slice(&output.stdout).map_err(|e| format!("run.py: {e}"));
     }
@@ -83,15 +135,15 @@ mod tests {
     #[test]
     fn its_line_is_read_and_its_refusal_told() {
         let line = r#"{"case": "horizon-sky", "width_px": 64, "wall_ms": 6.5, "cpu_ms": 7.5, "renderer": "llvmpipe"}"#;
-        let measured = read(&output(0, line, "")).unwrap();
+        let measured: Measured = read(&output(0, line, "")).unwrap();
         assert_eq!((measured.wall_ms, measured.cpu_ms), (6.5, 7.5));
-        let refused = read(&output(
+        let refused = read::<Measured>(&output(
             1,
             "",
             "Traceback\nModuleNotFoundError: No module named 'numpy'\n",
         ));
         let reason = refused.unwrap_err();
         assert!(reason.ends_with("No module named 'numpy'"), "{reason}");
-        assert!(read(&output(0, "nothing of the kind", "")).is_err());
+        assert!(read::<Measured>(&output(0, "nothing of the kind", "")).is_err());
     }
 }

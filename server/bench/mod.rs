@@ -58,6 +58,21 @@ pub(crate) trait Case: Sync {
         None
     }
 
+    /// How near to the reference a piece of work should come.
+    fn limits(&self, _setup: &Setup, _work: &str) -> Limits {
+        Limits::default()
+    }
+
+    /// Whether beside a setup it counts how far the baseline's own frame is from what it approximates.
+    fn judges_baseline(&self, _setup: &Setup) -> bool {
+        false
+    }
+
+    /// The tables of which one or the other can be measured alone; the parameter `table` of a setup names its own.
+    fn tables(&self) -> Vec<String> {
+        Vec::new()
+    }
+
     /// What is measured, setups of one size side by side. `sizes` are those asked for; without them, the case's own.
     fn setups(&self, sizes: Option<&[Size]>) -> Vec<Setup>;
 
@@ -71,6 +86,15 @@ pub(crate) trait Case: Sync {
     /// # Errors
     /// Where there is no device or it fails.
     fn measure(&self, setup: &Setup, settings: &Settings) -> Result<Account, Failure>;
+}
+
+/// How far a frame may be from the reference; none where nobody says.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(crate) struct Limits {
+    /// Relative RMSE of radiance.
+    pub(crate) error: Option<f64>,
+    /// Mean FLIP error.
+    pub(crate) flip: Option<f64>,
 }
 
 /// What one process measured.

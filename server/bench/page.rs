@@ -2,7 +2,7 @@
 
 use super::{
     plots::plots,
-    report::{BaselineRow, Report},
+    report::Report,
     table::{FIGURES, HEAD, cells},
 };
 use crate::commands::Failure;
@@ -50,8 +50,7 @@ fn rows(report: &Report) -> Markup {
         table {
             tr { @for (column, name) in HEAD.iter().enumerate() { th class=(class(column)) { (name) } } }
             @for row in &report.rows {
-                @let missed = row.baselines.iter().any(BaselineRow::misses);
-                tr.missed[missed] {
+                tr.missed[row.misses()] {
                     @for (column, cell) in cells(row).iter().enumerate() { td class=(class(column)) { (cell) } }
                 }
             }

@@ -1,6 +1,11 @@
 //! What was measured, as rows of medians.
 
-use super::{Device, Pass, Setup, baseline::Baseline, rounds::Measurements, stopwatch::Spent};
+use super::{
+    Device, Pass, Setup,
+    baseline::{Baseline, Off},
+    rounds::Measurements,
+    stopwatch::Spent,
+};
 use crate::commands::{Failure, build};
 use serde::Serialize;
 use serde_json::{Map, Value};
@@ -30,6 +35,8 @@ pub(crate) struct Report {
 pub(crate) struct BaselineDevice {
     /// The driver's name for it.
     pub(crate) renderer: String,
+    /// How far its frame is from what it approximates; null where that was not asked for.
+    pub(crate) off: Option<Off>,
 }
 
 /// One piece of work under one setup.
@@ -57,8 +64,12 @@ pub(crate) struct Row {
     pub(crate) speedup: Option<Speedup>,
     /// As the case defines it.
     pub(crate) error: Option<f64>,
+    /// What `error` should be at most.
+    pub(crate) target_error: Option<f64>,
     /// Mean FLIP error of the picture, where the case takes it.
     pub(crate) flip: Option<f64>,
+    /// What `flip` should be at most.
+    pub(crate) target_flip: Option<f64>,
     /// The passes that ran, each with its median.
     pub(crate) passes: Vec<Pass>,
     /// The most that a process of this setup held at once; the largest of the rounds.
@@ -92,12 +103,17 @@ pub(crate) struct BaselineRow {
     pub(crate) target_cpu_ratio: Option<f64>,
 }
 
-impl BaselineRow {
-    /// Whether the work takes more than its target allows.
+impl Row {
+    /// Whether it misses one of its targets.
     pub(super) fn misses(&self) -> bool {
-        self.target_cpu_ratio
-            .zip(self.cpu_ratio)
-            .is_some_and(|(target, ratio)| ratio < target)
+        let over =
+            |found: Option<f64>, most: Option<f64>| found.zip(most).is_some_and(|(found, most)| found > most);
+        over(self.error, self.target_error)
+            || over(self.flip, self.target_flip)
+            || self
+                .baselines
+                .iter()
+                .any(|baseline| over(baseline.target_cpu_ratio, baseline.cpu_ratio))
     }
 }
 
@@ -112,16 +128,17 @@ impl Report {
             ),
             format!("cores: {}; figures are medians over the rounds", self.cores),
         ];
-        lines.extend(self.baseline.as_ref().map(|baseline| {
-            format!(
+        if let Some(baseline) = &self.baseline {
+            lines.push(format!(
                 "baselines on {}: their CPU time over ours, and in brackets what it should be",
                 baseline.renderer
-            )
-        }));
+            ));
+            lines.extend(baseline.off.map(|off| off.to_string()));
+        }
         lines
     }
 
-    pub(super) fn new(all: &[Measurements], baseline: &Baseline) -> Result<Self, Failure> {
+    pub(super) fn new(all: &[Measurements], baseline: &Baseline, off: Option<Off>) -> Result<Self, Failure> {
         let first = all.iter().find_map(|one| one.runs.first());
         let device = first
             .ok_or_else(|| Failure::Bench("nothing was measured".to_owned()))?
@@ -132,9 +149,12 @@ impl Report {
             Baseline::Absent(reason) => Some(reason.clone()),
         };
         let measured = all.iter().find_map(|one| one.baselines.values().flatten().next());
-        let renderer = measured
+        let baseline = measured
             .filter(|_| baseline_absent.is_none())
-            .map(|one| one.renderer.clone());
+            .map(|one| BaselineDevice {
+                renderer: one.renderer.clone(),
+                off,
+            });
         let mut rows: Vec<Row> = all.iter().flat_map(rows).collect();
         let speedups: Vec<_> = rows.iter().map(|row| speedup(row, &rows)).collect();
         for (row, speedup) in rows.iter_mut().zip(speedups) {
@@ -147,7 +167,7 @@ impl Report {
             build: build(),
             device,
             cores: std::thread::available_parallelism().map_or(1, usize::from),
-            baseline: renderer.map(|renderer| BaselineDevice { renderer }),
+            baseline,
             baseline_absent,
             faults: all.iter().flat_map(faults).collect(),
             rows,
@@ -200,17 +220,21 @@ fn row(one: &Measurements, at: usize) -> Option<Row> {
     } else {
         baseline_rows(one, &works.first()?.work, spent)
     };
+    let work = &works.first()?.work;
+    let limits = one.case.limits(&one.setup, work);
     Some(Row {
         case: one.case.name(),
         setup: one.setup.clone(),
-        work: works.first()?.work.clone(),
+        work: work.clone(),
         varied: works.first()?.varied.clone(),
         rounds: works.len(),
         spent,
         slower: one.case.slower(&one.setup),
         speedup: None,
         error: median(works.iter().filter_map(|work| work.error)),
+        target_error: limits.error,
         flip: median(works.iter().filter_map(|work| work.flip)),
+        target_flip: limits.flip,
         passes,
         peak_memory_bytes: one.runs.iter().filter_map(|run| run.peak_memory_bytes).max(),
         baselines,

@@ -64,6 +64,11 @@ impl fmt::Display for Report {
     }
 }
 
+fn limited(figure: Option<String>, target: Option<f64>) -> String {
+    let target = target.map_or_else(String::new, |target| format!(" (≤{target})"));
+    figure.map_or_else(String::new, |figure| format!("{figure}{target}"))
+}
+
 /// What stands in a row, column by column.
 pub(super) fn cells(row: &Row) -> [String; HEAD.len()] {
     let size = row.setup.size;
@@ -101,8 +106,8 @@ pub(super) fn cells(row: &Row) -> [String; HEAD.len()] {
         row.spent.cpu_ms.map_or_else(String::new, |ms| format!("{ms:.1}")),
         faster,
         baselines.collect::<Vec<_>>().join(", "),
-        row.error.map_or_else(String::new, |error| format!("{error:.2e}")),
-        row.flip.map_or_else(String::new, |flip| format!("{flip:.3}")),
+        limited(row.error.map(|error| format!("{error:.2e}")), row.target_error),
+        limited(row.flip.map(|flip| format!("{flip:.3}")), row.target_flip),
         row.rounds.to_string(),
         passes.collect::<Vec<_>>().join(", "),
     ]

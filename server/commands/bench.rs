@@ -23,6 +23,9 @@ pub(crate) struct Args {
     /// Sizes of frames instead of the case's own, for example 640x360,1920x1080
     #[arg(long, value_name = "SIZES", value_delimiter = ',')]
     sizes: Option<Vec<Size>>,
+    /// Only these tables, for example changes,truth; of the cases only clouds has any
+    #[arg(long, value_name = "TABLES", value_delimiter = ',')]
+    tables: Option<Vec<String>>,
     /// Folder whose run.py measures the baseline beside it
     #[arg(long, value_name = "FOLDER", default_value = "../shared/baseline")]
     baseline: PathBuf,
@@ -59,6 +62,7 @@ pub(crate) fn run(args: &Args, config: Option<&Path>, json: bool) -> Result<(), 
     let report = bench::run(&Plan {
         cases,
         sizes: args.sizes.as_deref(),
+        tables: args.tables.as_deref(),
         rounds: args.rounds,
         baseline: args.baseline.clone(),
         settings: &settings,

@@ -1,10 +1,11 @@
 //! Clouds: what each kind of change costs, and the tables of two published programs.
 
+mod scenes;
 mod tables;
 mod truth;
 
 use super::{
-    Account, Case, Setup, Size, Work,
+    Account, Case, Limits, Setup, Size, Work,
     stopwatch::{Stopwatch, peak_memory_bytes},
     viewer::{AIR_TABLES, CAMERA_PASSES, Viewer, forbidden},
 };
@@ -23,9 +24,6 @@ const NOISE: [&str; 5] = [
 ];
 /// The pass that follows the rays of view through the clouds.
 const VIEW: &str = "cloud_view";
-
-/// Presets of which frames are compared with brute force.
-const TRUTH_SCENES: [&str; 2] = ["bauman", "fair-weather"];
 
 /// The baseline `horizon` takes ten seconds and more for larger frames.
 const MOST_HORIZON_PIXELS: u32 = 900 * 600;
@@ -56,6 +54,7 @@ impl Case for CloudCase {
             Ok(Table::Changes) if pixels <= MOST_HORIZON_PIXELS => &["listing", "horizon"],
             Ok(Table::Changes) => &["listing"],
             Ok(Table::ShellDensity | Table::ShellCoverage) if setup.size == TARGET_SIZE => &["listing"],
+            Ok(Table::Truth) => &["listing"],
             _ => &[],
         }
     }
@@ -69,6 +68,23 @@ impl Case for CloudCase {
             ("listing", "camera-turned", _) => Some(300.0),
             _ => None,
         }
+    }
+
+    fn limits(&self, setup: &Setup, work: &str) -> Limits {
+        let judged = matches!(setup.parameter("table"), Ok(Table::Truth)) && setup.size == tables::STRIP;
+        Limits {
+            error: (judged && work == "final").then_some(0.01),
+            flip: (judged && work == "preview").then_some(0.05),
+        }
+    }
+
+    fn judges_baseline(&self, setup: &Setup) -> bool {
+        matches!(setup.parameter("table"), Ok(Table::Truth))
+    }
+
+    fn tables(&self) -> Vec<String> {
+        let name = |table| json!(table).as_str().map(str::to_owned);
+        Table::ALL.into_iter().filter_map(name).collect()
     }
 
     fn setups(&self, sizes: Option<&[Size]>) -> Vec<Setup> {
@@ -86,7 +102,7 @@ impl Case for CloudCase {
                 qualities.dedup();
                 let parameters: Vec<_> = match table {
                     Table::Truth if qualities.is_empty() => Vec::new(),
-                    Table::Truth => TRUTH_SCENES.map(|scene| ("scene", json!(scene))).into(),
+                    Table::Truth => scenes::NAMES.map(|scene| ("scene", json!(scene))).into(),
                     _ => qualities
                         .iter()
                         .map(|quality| ("quality", json!(quality)))
@@ -112,7 +128,7 @@ impl Case for CloudCase {
             Table::Truth => {
                 let scene: String = setup.parameter("scene")?;
                 let renderer = crate::open_renderer(settings)?;
-                let works = truth::works(&*renderer, &tables::named(&scene), TARGET_SIZE, setup.size)?;
+                let works = truth::works(&*renderer, &scenes::named(&scene), setup.size)?;
                 // Brute force is not part of anybody's frame.
                 Ok(account(&*renderer, works, None))
             }
@@ -254,5 +270,43 @@ mod tests {
         assert_eq!(of("listing", "camera-turned"), [300.0, 300.0]);
         assert_eq!(of("listing", "first-frame"), [0.0; 0]);
         assert_eq!(of("horizon", "sun-moved"), [0.0; 0]);
+    }
+
+    #[test]
+    fn final_frames_must_be_near_in_radiance_and_previews_in_looks() {
+        let setups = CloudCase.setups(None);
+        let truth: Vec<_> = setups
+            .iter()
+            .filter(|setup| CloudCase.judges_baseline(setup))
+            .collect();
+        assert_eq!(truth.len(), scenes::NAMES.len());
+        for setup in &setups {
+            let of = |work| {
+                let limits = CloudCase.limits(setup, work);
+                [limits.error, limits.flip]
+            };
+            let judged = truth.contains(&setup);
+            assert_eq!(of("final"), [judged.then_some(0.01), None]);
+            assert_eq!(of("preview"), [None, judged.then_some(0.05)]);
+            assert_eq!(of("brute-force"), [None, None]);
+        }
+        let elsewhere = CloudCase.setups(Some(&[Size::new(64, 36)]));
+        let limits = |setup| CloudCase.limits(setup, "final");
+        assert!(elsewhere.iter().all(|setup| limits(setup) == Limits::default()));
+    }
+
+    #[test]
+    fn tables_are_asked_for_by_the_names_that_setups_bear() {
+        let mut named: Vec<String> = Vec::new();
+        for setup in CloudCase.setups(None) {
+            let name = setup.parameter("table").unwrap();
+            if !named.contains(&name) {
+                named.push(name);
+            }
+        }
+        let mut known = CloudCase.tables();
+        known.sort();
+        named.sort();
+        assert_eq!(named, known);
     }
 }

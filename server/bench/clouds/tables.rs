@@ -34,7 +34,7 @@ pub(super) enum Table {
 }
 
 /// All sizes, in the order of measuring.
-pub(super) const SIZES: [Size; 8] = [
+pub(super) const SIZES: [Size; 9] = [
     Size::new(640, 360),
     Size::new(800, 480),
     Size::new(900, 600),
@@ -43,11 +43,17 @@ pub(super) const SIZES: [Size; 8] = [
     Size::new(3840, 2160),
     SMALL_SHELL,
     PAPER_SIZE,
+    STRIP,
 ];
-/// The paper does not tell its own; as much of a frame is compared with brute force.
+/// The paper does not tell its own.
 const PAPER_SIZE: Size = Size::new(160, 90);
 /// A quarter to the side of the thesis' 900×600, at which final frames would take minutes.
 const SMALL_SHELL: Size = Size::new(225, 150);
+
+/// What is compared with brute force: the middle columns of a 900×600 frame, from its lower to its upper edge, for the
+/// angle of view stands for the height. Whole frames of brute force would take minutes, and smaller ones have larger
+/// pixels.
+pub(super) const STRIP: Size = Size::new(60, 600);
 
 /// What the thesis calls the density of its preset.
 const SHELL_DENSITY: u32 = 150;
@@ -78,11 +84,12 @@ impl Table {
         const FINAL: &[Quality] = &[Quality::Final];
         const BOTH: &[Quality] = &[Quality::Preview, Quality::Final];
         match self {
-            Self::Changes => &[(SIZES[0], BOTH), (SIZES[2], BOTH), (SIZES[3], BOTH)],
+            Self::Changes => &[(SIZES[0], BOTH), (SIZES[2], BOTH), (SIZES[3], PREVIEW)],
             Self::ShellDensity | Self::ShellCoverage => &[(SIZES[2], PREVIEW), (SMALL_SHELL, FINAL)],
             Self::ShellSize => &[(SIZES[1], BOTH), (SIZES[4], PREVIEW), (SIZES[5], PREVIEW)],
             // The same at either.
             Self::Noise => &[(PAPER_SIZE, PREVIEW)],
+            Self::Truth => &[(STRIP, BOTH)],
             _ => &[(PAPER_SIZE, FINAL)],
         }
     }
@@ -173,15 +180,15 @@ fn fields(value: Value) -> Map<String, Value> {
 
 /// The thesis' clouds.
 pub(super) fn shell() -> Scene {
-    named("bauman")
+    preset_scene("bauman")
 }
 
 /// Ours, beside the paper's.
 pub(super) fn fair_weather() -> Scene {
-    named("fair-weather")
+    preset_scene("fair-weather")
 }
 
-pub(super) fn named(name: &str) -> Scene {
+pub(super) fn preset_scene(name: &str) -> Scene {
     preset(name)
         .map(|preset| preset.scene.clone())
         .unwrap_or_default()
