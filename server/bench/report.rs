@@ -22,6 +22,8 @@ pub(crate) struct Report {
     pub(crate) cores: usize,
     /// What the baseline rendered with; null where it was not there.
     pub(crate) baseline: Option<BaselineDevice>,
+    /// How far its frame is from what it approximates; null where it is not there or `truth` was not measured.
+    pub(crate) baseline_off: Option<Off>,
     /// Why there is no baseline.
     pub(crate) baseline_absent: Option<String>,
     /// Promises broken: passes that ran and should not have.
@@ -35,8 +37,6 @@ pub(crate) struct Report {
 pub(crate) struct BaselineDevice {
     /// The driver's name for it.
     pub(crate) renderer: String,
-    /// How far its frame is from what it approximates; null where that was not asked for.
-    pub(crate) off: Option<Off>,
 }
 
 /// One piece of work under one setup.
@@ -133,8 +133,8 @@ impl Report {
                 "baselines on {}: their CPU time over ours, and in brackets what it should be",
                 baseline.renderer
             ));
-            lines.extend(baseline.off.map(|off| off.to_string()));
         }
+        lines.extend(self.baseline_off.map(|off| off.to_string()));
         lines
     }
 
@@ -149,12 +149,9 @@ impl Report {
             Baseline::Absent(reason) => Some(reason.clone()),
         };
         let measured = all.iter().find_map(|one| one.baselines.values().flatten().next());
-        let baseline = measured
+        let renderer = measured
             .filter(|_| baseline_absent.is_none())
-            .map(|one| BaselineDevice {
-                renderer: one.renderer.clone(),
-                off,
-            });
+            .map(|one| one.renderer.clone());
         let mut rows: Vec<Row> = all.iter().flat_map(rows).collect();
         let speedups: Vec<_> = rows.iter().map(|row| speedup(row, &rows)).collect();
         for (row, speedup) in rows.iter_mut().zip(speedups) {
@@ -167,7 +164,8 @@ impl Report {
             build: build(),
             device,
             cores: std::thread::available_parallelism().map_or(1, usize::from),
-            baseline,
+            baseline: renderer.map(|renderer| BaselineDevice { renderer }),
+            baseline_off: off,
             baseline_absent,
             faults: all.iter().flat_map(faults).collect(),
             rows,

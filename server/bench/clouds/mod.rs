@@ -26,7 +26,7 @@ const NOISE: [&str; 5] = [
 const VIEW: &str = "cloud_view";
 
 /// The baseline `horizon` takes ten seconds and more for larger frames.
-const MOST_HORIZON_PIXELS: u32 = 900 * 600;
+const MOST_HORIZON_PIXELS: u64 = 900 * 600;
 
 /// Size at which the targets hold.
 const TARGET_SIZE: Size = Size::new(900, 600);
@@ -49,12 +49,10 @@ impl Case for CloudCase {
     }
 
     fn baselines(&self, setup: &Setup) -> &'static [&'static str] {
-        let pixels = setup.size.width_px * setup.size.height_px;
         match setup.parameter("table") {
-            Ok(Table::Changes) if pixels <= MOST_HORIZON_PIXELS => &["listing", "horizon"],
+            Ok(Table::Changes) if pixels(setup.size) <= MOST_HORIZON_PIXELS => &["listing", "horizon"],
             Ok(Table::Changes) => &["listing"],
             Ok(Table::ShellDensity | Table::ShellCoverage) if setup.size == TARGET_SIZE => &["listing"],
-            Ok(Table::Truth) => &["listing"],
             _ => &[],
         }
     }
@@ -71,7 +69,7 @@ impl Case for CloudCase {
     }
 
     fn limits(&self, setup: &Setup, work: &str) -> Limits {
-        let judged = matches!(setup.parameter("table"), Ok(Table::Truth)) && setup.size == tables::STRIP;
+        let judged = matches!(setup.parameter("table"), Ok(Table::Truth));
         Limits {
             error: (judged && work == "final").then_some(0.01),
             flip: (judged && work == "preview").then_some(0.05),
@@ -101,7 +99,9 @@ impl Case for CloudCase {
                 qualities.sort_by_key(|quality| *quality == Quality::Final);
                 qualities.dedup();
                 let parameters: Vec<_> = match table {
-                    Table::Truth if qualities.is_empty() => Vec::new(),
+                    Table::Truth if qualities.is_empty() || pixels(*size) > pixels(tables::PATCH) => {
+                        Vec::new()
+                    }
                     Table::Truth => scenes::NAMES.map(|scene| ("scene", json!(scene))).into(),
                     _ => qualities
                         .iter()
@@ -128,13 +128,17 @@ impl Case for CloudCase {
             Table::Truth => {
                 let scene: String = setup.parameter("scene")?;
                 let renderer = crate::open_renderer(settings)?;
-                let works = truth::works(&*renderer, &scenes::named(&scene), setup.size)?;
+                let works = truth::works(&*renderer, &scenes::named(&scene), TARGET_SIZE, setup.size)?;
                 // Brute force is not part of anybody's frame.
                 Ok(account(&*renderer, works, None))
             }
             table => sweep(table, setup.size, quality()?, settings),
         }
     }
+}
+
+fn pixels(size: Size) -> u64 {
+    u64::from(size.width_px) * u64::from(size.height_px)
 }
 
 /// What somebody does who looks at clouds.
@@ -290,9 +294,17 @@ mod tests {
             assert_eq!(of("preview"), [None, judged.then_some(0.05)]);
             assert_eq!(of("brute-force"), [None, None]);
         }
-        let elsewhere = CloudCase.setups(Some(&[Size::new(64, 36)]));
-        let limits = |setup| CloudCase.limits(setup, "final");
-        assert!(elsewhere.iter().all(|setup| limits(setup) == Limits::default()));
+    }
+
+    #[test]
+    fn large_frames_are_not_followed_by_brute_force() {
+        let compared = |size| {
+            let setups = CloudCase.setups(Some(&[size]));
+            let of_truth = setups.iter().filter(|setup| CloudCase.judges_baseline(setup));
+            of_truth.count()
+        };
+        assert_eq!(compared(tables::PATCH), scenes::NAMES.len());
+        assert_eq!(compared(Size::new(640, 360)), 0);
     }
 
     #[test]

@@ -13,6 +13,9 @@ pub(super) const NAMES: [&str; 6] = [
     "storm",
 ];
 
+/// So high the camera looks: the horizon stands in the lower part of the middle half of the frame.
+const UP_DEG: f64 = 12.0;
+
 /// One of [`NAMES`]: a preset, for the first three under another sun. The sun's own disc, thousands of times as bright
 /// as all else, would decide every error by itself.
 pub(super) fn named(name: &str) -> Scene {
@@ -25,8 +28,10 @@ pub(super) fn named(name: &str) -> Scene {
     };
     let mut scene = preset_scene(preset);
     scene.sun.disc = false;
+    let ahead_deg = scene.camera.direction.to_angles().azimuth_deg;
+    scene.camera.direction = Direction::angles(ahead_deg, UP_DEG);
     if let Some((aside_deg, elevation_deg)) = sun {
-        let azimuth_deg = scene.camera.direction.to_angles().azimuth_deg + aside_deg;
+        let azimuth_deg = (ahead_deg + aside_deg).rem_euclid(360.0);
         scene.sun.position = SunPosition::Direction(Direction::angles(azimuth_deg, elevation_deg));
     }
     scene
@@ -51,7 +56,11 @@ mod tests {
                 panic!("{name}")
             };
             let up_deg = scene.camera.direction.to_angles().elevation_deg;
-            assert!(up_deg.abs() < 0.5 * vertical_fov_deg, "{name}");
+            // Of the middle half, which is what is compared.
+            let half_deg = (0.5 * (0.5 * vertical_fov_deg).to_radians().tan())
+                .atan()
+                .to_degrees();
+            assert!(up_deg.abs() < half_deg, "{name}: {up_deg} {half_deg}");
             assert!(!seen.contains(&scene), "{name}");
             seen.push(scene);
         }

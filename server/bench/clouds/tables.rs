@@ -43,17 +43,15 @@ pub(super) const SIZES: [Size; 9] = [
     Size::new(3840, 2160),
     SMALL_SHELL,
     PAPER_SIZE,
-    STRIP,
+    PATCH,
 ];
 /// The paper does not tell its own.
 const PAPER_SIZE: Size = Size::new(160, 90);
 /// A quarter to the side of the thesis' 900×600, at which final frames would take minutes.
 const SMALL_SHELL: Size = Size::new(225, 150);
 
-/// What is compared with brute force: the middle columns of a 900×600 frame, from its lower to its upper edge, for the
-/// angle of view stands for the height. Whole frames of brute force would take minutes, and smaller ones have larger
-/// pixels.
-pub(super) const STRIP: Size = Size::new(60, 600);
+/// What is compared with brute force, which takes milliseconds of processor time for a pixel.
+pub(super) const PATCH: Size = Size::new(16, 300);
 
 /// What the thesis calls the density of its preset.
 const SHELL_DENSITY: u32 = 150;
@@ -89,7 +87,7 @@ impl Table {
             Self::ShellSize => &[(SIZES[1], BOTH), (SIZES[4], PREVIEW), (SIZES[5], PREVIEW)],
             // The same at either.
             Self::Noise => &[(PAPER_SIZE, PREVIEW)],
-            Self::Truth => &[(STRIP, BOTH)],
+            Self::Truth => &[(PATCH, BOTH)],
             _ => &[(PAPER_SIZE, FINAL)],
         }
     }
