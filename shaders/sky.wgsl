@@ -1,38 +1,24 @@
-// Radiance of every pixel of one tile of the picture.
-import package::lib::airglow::{Airglow, airglow_radiance};
-import package::lib::air::Air;
-import package::lib::camera::{Camera, sight_at};
-import package::lib::geometry::{
-    PI, angle_if_near, angle_of_cosine, distance_to_sphere, edge_zenith_angle, horizon_distance_squared,
+// What is seen in every pixel of one tile: radiance, or the picture itself. A preview's picture is made in stages, each a
+// variant of this pass: what is seen on a lattice of places, one to a few pixels; under clouds a finer lattice that
+// takes the clear sky from the first; and the pixels between.
+import package::lib::camera::sight_at;
+import package::lib::cloud_shade::clouds_before;
+import package::lib::even::{is_even_cell, is_even_run};
+import package::lib::geometry::angle_if_near;
+import package::lib::picture::{Exposure, Tone, packed_pixel, picture_pixel, shown_colour};
+import package::lib::sky_light::{
+    CLOUDS, Light, MOON, PROJECTION, camera, cloud_frame, corona_towards, disc_in_pixel, light_towards, linear_clamp, moon,
+    moon_in_pixel, radiance_of, view,
 };
-import package::lib::phase::{cornette_shanks_phase, rayleigh_phase};
-import package::lib::cloud_shade::{CloudShade, clouds_before, ground_shaded};
-import package::lib::light::{UNSHADED, View, disc_radiance, ground_radiance, scattered_radiance};
-import package::lib::picture::{Exposure, Tone, picture_pixel};
-import package::lib::moon::{Moon, corona, moon_radiance, place_on_moon};
-import package::lib::scattering::{March, Scattered, scatter_along};
-import package::lib::source::cosine_of_azimuth;
-import package::lib::tables::{SkyViewRay, light_from_table, sky_view_coordinate, least_zenith_angle};
-import package::lib::view_ray::{Observer, enter_air};
 
-// 0: light in the air from the sky-view table; 1: integrated along each pixel's ray, 2: with the optical depth to the
-// sun integrated in every step of it.
-override METHOD: u32 = 0u;
-// False for the first order alone.
-override MULTIPLE: bool = true;
-// True where there is haze.
-override HAZE: bool = true;
-
-// As `sight_at` numbers it.
-override PROJECTION: u32 = 0u;
-
-// Further variants, so that a scene pays for what it has: a moon whose disc is shown or hides the sun's, and one that
-// lights air and ground as well.
-override AIRGLOW: bool = true;
-override MOON: bool = false;
-override MOONLIGHT: bool = false;
-// True where there are clouds.
-override CLOUDS: bool = false;
+// 0: every pixel; 1: the lattice; 2: the finer lattice; 3: the pixels between.
+override STAGE: u32 = 0u;
+// Pixels between the places of the lattice that the stage writes, or reads if it is the last.
+override GRAIN_X: u32 = 8u;
+override GRAIN_Y: u32 = 8u;
+// Those of the first lattice, where there is a finer one.
+override COARSE_X: u32 = 8u;
+override COARSE_Y: u32 = 8u;
 
 // True to write the picture itself, where nothing else reads its radiance: to store and load four floats a pixel is
 // half of a software device's work on a clear sky.
@@ -42,261 +28,52 @@ override SPAN: u32 = 1u;
 // As `picture_pixel` numbers it.
 override CURVE: u32 = 3u;
 
-// How the clouds' table lies on the picture.
-struct CloudFrame {
-    // The observer's place in the scene.
-    place_m: vec3f,
-    // Texels to a pixel.
-    fineness: f32,
-    // The light that casts their shadows.
-    light: vec3f,
-}
-
 struct Tile {
     origin_px: vec2u,
     size_px: vec2u,
 }
 
-@group(0) @binding(0) var<uniform> air: Air;
-@group(0) @binding(1) var<uniform> view: View;
-@group(0) @binding(2) var<uniform> camera: Camera;
 @group(0) @binding(3) var<uniform> tile: Tile;
-@group(0) @binding(4) var<uniform> observer: Observer;
-@group(0) @binding(5) var transmittance_table: texture_2d<f32>;
-@group(0) @binding(6) var linear_clamp: sampler;
-@group(0) @binding(7) var irradiance_table: texture_2d<f32>;
-// Whichever of the two the method reads.
-@group(0) @binding(8) var sky_view_table: texture_2d_array<f32>;
-@group(0) @binding(9) var source_table: texture_2d_array<f32>;
 // R, G, B in W/m²/sr; alpha is 0 where the projection sees nothing, else one more than the angle from what glares.
 @group(0) @binding(10) var<storage, read_write> radiance: array<vec4f>;
-@group(0) @binding(11) var<uniform> glow: Airglow;
-@group(0) @binding(12) var<uniform> moon: Moon;
-// The moon in the sun's place, and its light in the air.
-@group(0) @binding(13) var<uniform> moon_view: View;
-@group(0) @binding(14) var moon_sky_view_table: texture_2d_array<f32>;
-@group(0) @binding(15) var moon_face: texture_2d<f32>;
 @group(0) @binding(16) var<uniform> tone_settings: Tone;
 @group(0) @binding(17) var<storage, read> exposure: Exposure;
 @group(0) @binding(18) var<storage, read_write> picture: array<u32>;
 // What clouds add in R, G and B, and what they let through.
 @group(0) @binding(19) var cloud_table: texture_2d<f32>;
-@group(0) @binding(20) var<uniform> shade: CloudShade;
-@group(0) @binding(21) var shade_maps: texture_2d_array<f32>;
-@group(0) @binding(22) var<uniform> cloud_frame: CloudFrame;
 @group(0) @binding(23) var disc_clouds: texture_2d<f32>;
+// A place of a lattice: R, G, B of the clear sky's radiance or, for the last stage, from 0 to 255; alpha is 1 where the
+// cell right and down of it is even.
+@group(0) @binding(24) var<storage, read> lattice: array<vec4f>;
+@group(0) @binding(25) var<storage, read_write> next_lattice: array<vec4f>;
 
-fn light_in_air(ray: SkyViewRay, mu: f32, nu: f32) -> Scattered {
-    if METHOD != 0u {
-        var light: Scattered;
-        let entry = enter_air(air, observer, mu, nu, ray.ground, ray.distance_m);
-        if entry.length_m > 0.0 {
-            let march = March(true, MULTIPLE, HAZE, METHOD == 2u, observer.steps, 6u, observer.sun_steps);
-            light = scatter_along(air, entry, transmittance_table, source_table, linear_clamp, march);
-        }
-        return light;
-    }
-    return light_in_table(sky_view_table, ray);
+// Pixels of a row that share a thread of the last stage, and of which uneven ones may share as SPAN says.
+const BLOCK = 8u;
+
+fn glaring() -> vec3f {
+    return select(view.sun, moon.direction, MOON && moon.glares == 1.0);
 }
 
-fn light_in_table(table: texture_2d_array<f32>, ray: SkyViewRay) -> Scattered {
-    let at = sky_view_coordinate(air.radius_m, air.top_m, view.altitude_m, ray, textureDimensions(table));
-    let rayleigh = textureSampleLevel(table, linear_clamp, at, 0, 0.0);
-    let mie = textureSampleLevel(table, linear_clamp, at, 1, 0.0);
-    let multiple = textureSampleLevel(table, linear_clamp, at, 2, 0.0);
-    let depth = vec3f(rayleigh.a, mie.a, multiple.a);
-    return Scattered(light_from_table(rayleigh.rgb), light_from_table(mie.rgb), light_from_table(multiple.rgb), depth);
+// What the lens gets of the disc that glares.
+fn disc_left() -> f32 {
+    if CLOUDS {
+        return textureSampleLevel(disc_clouds, linear_clamp, vec2f(0.5), 0.0).a;
+    }
+    return 1.0;
 }
 
-// Places along each side of a pixel at which the disc is looked at.
-const DISC_PLACES = 12;
-
-// Mean radiance of the sun's disc over a pixel, so that a frame holds the sun's irradiance however large its pixels
-// are. A disc that is smaller than a pixel is drawn as large as a pixel and as much fainter.
-fn disc_in_pixel(place: vec2f, direction: vec3f) -> vec3f {
-    let angle = angle_if_near(direction, view.sun);
-    // Nowhere in any projection is a pixel far larger than at the centre.
-    if view.disc == 0.0 || view.sun_angular_radius <= 0.0 || angle > view.sun_angular_radius + 4.0 * camera.pixel_angle {
-        return vec3f(0.0);
+// Before the clouds, if there are any, at a place of the frame.
+fn with_clouds(behind: vec3f, place: vec2f) -> vec3f {
+    if CLOUDS {
+        let clouds = clouds_before(cloud_table, place - vec2f(tile.origin_px), cloud_frame.fineness);
+        return max(clouds.a * behind + clouds.rgb, vec3f(0.0));
     }
-    // From the centre to the corners; not quite, since a cubemap's next face begins there.
-    let falling = angle_if_near(direction, sight_at(camera, PROJECTION, place + vec2f(0.49, 0.49)).direction);
-    let rising = angle_if_near(direction, sight_at(camera, PROJECTION, place + vec2f(0.49, -0.49)).direction);
-    let reach = max(falling, rising);
-    let alpha = max(view.sun_angular_radius, reach);
-    if angle + 3.0 * reach < alpha && !(MOON && moon.sun_left < 1.0) {
-        return disc_radiance(view, alpha, angle);
-    }
-    var sum = vec3f(0.0);
-    for (var i = 0; i < DISC_PLACES * DISC_PLACES; i++) {
-        let at = (vec2f(f32(i % DISC_PLACES), f32(i / DISC_PLACES)) + 0.5) / f32(DISC_PLACES) - 0.5;
-        let towards = sight_at(camera, PROJECTION, place + at).direction;
-        let hidden = MOON && alpha == view.sun_angular_radius && angle_if_near(towards, moon.direction) < moon.angular_radius;
-        sum += select(1.0, 0.0, hidden) * disc_radiance(view, alpha, angle_if_near(towards, view.sun));
-    }
-    // Drawn larger than it is, the sun loses by its share.
-    let left = select(1.0, moon.sun_left, MOON && alpha > view.sun_angular_radius);
-    return left * sum / f32(DISC_PLACES * DISC_PLACES);
+    return behind;
 }
 
-// Most places along each side of a pixel at which the moon is looked at, and places across its disc that show all of
-// its face.
-const MOON_PLACES = 48.0;
-const FACE_PLACES = 500.0;
-
-// Mean radiance of the moon's disc over a pixel, as that of the sun's.
-fn moon_in_pixel(place: vec2f, direction: vec3f) -> vec3f {
-    let angle = angle_if_near(direction, moon.direction);
-    if moon.disc == 0.0 || moon.angular_radius <= 0.0 || angle > moon.angular_radius + 4.0 * camera.pixel_angle {
-        return vec3f(0.0);
-    }
-    let falling = angle_if_near(direction, sight_at(camera, PROJECTION, place + vec2f(0.49, 0.49)).direction);
-    let rising = angle_if_near(direction, sight_at(camera, PROJECTION, place + vec2f(0.49, -0.49)).direction);
-    let reach = max(falling, rising);
-    let alpha = max(moon.angular_radius, reach);
-    let fainter = sin(0.5 * moon.angular_radius) / sin(0.5 * alpha);
-    let places = i32(clamp(ceil(FACE_PLACES * reach / alpha), 2.0, MOON_PLACES));
-    var sum = vec3f(0.0);
-    for (var i = 0; i < places * places; i++) {
-        // A lattice of irrational steps (Roberts 2018) falls on no line of the crescent.
-        let at = fract(0.5 + f32(i) * vec2f(0.7548777, 0.5698403)) - 0.5;
-        let towards = sight_at(camera, PROJECTION, place + at).direction;
-        sum += moon_radiance(moon, moon_face, linear_clamp, place_on_moon(moon, alpha, towards));
-    }
-    return fainter * fainter * sum / f32(places * places);
-}
-
-// The corona about the moon, once the rest of the sun no longer outshines it.
-fn corona_towards(direction: vec3f) -> vec3f {
-    let hidden = angle_if_near(direction, moon.direction) < moon.angular_radius;
-    if view.disc == 0.0 || view.sun_angular_radius <= 0.0 || moon.sun_left > 0.01 || hidden {
-        return vec3f(0.0);
-    }
-    return (1.0 - moon.sun_left / 0.01) * corona(view.sun_irradiance, view.sun_angular_radius, angle_if_near(direction, view.sun));
-}
-
-// Angle along the horizon between a direction and a light, of cosines with the zenith and with each other. At the zenith
-// there is no azimuth and any will do.
-fn azimuth_from(light: View, mu: f32, nu: f32) -> f32 {
-    return angle_of_cosine(cosine_of_azimuth(mu, light.mu_s, nu));
-}
-
-// Radiance that the air scatters of the moon's light.
-fn moonlight_in_air(direction: vec3f, mu: f32, zenith_angle: f32, ground: bool, distance_m: f32) -> vec3f {
-    let azimuth = azimuth_from(moon_view, mu, clamp(dot(direction, moon_view.sun), -1.0, 1.0));
-    let light = light_in_table(moon_sky_view_table, SkyViewRay(azimuth, zenith_angle, ground, distance_m));
-    return scattered_radiance(air, moon_view, light, clamp(dot(direction, moon_view.sun), -1.0, 1.0));
-}
-
-// A ray that nothing stops.
-const ENDLESS_M = 1e12;
-
-// What is between the observer and the discs, in one direction.
-struct Light {
-    // Times the Rayleigh phase function.
-    rayleigh: vec3f,
-    // Times the Mie phase function.
-    mie: vec3f,
-    // No phase function.
-    even: vec3f,
-    // Transmittance to the discs, none where the ground hides them.
-    left: vec3f,
-}
-
-fn light_towards(direction: vec3f, mu: f32, nu: f32) -> Light {
-    let zenith_angle = angle_of_cosine(mu);
-    let azimuth = azimuth_from(view, mu, nu);
-    let horizon = edge_zenith_angle(air.radius_m, view.altitude_m);
-    // Share of the pixel above the horizon, for an even edge.
-    let above = clamp(0.5 + (horizon - zenith_angle) / camera.pixel_angle, 0.0, 1.0);
-    let met_m = distance_to_sphere(air.radius_m, view.altitude_m, mu);
-    let edge_m = sqrt(horizon_distance_squared(air.radius_m, view.altitude_m));
-    // One side of the horizon, and where the pixel lies on it the other as well: a loop, since a software device runs
-    // both sides of a branch.
-    var sum: Light;
-    for (var side = 0u; side < select(1u, 2u, above > 0.0 && above < 1.0); side++) {
-        let ground = (above < 0.5) != (side == 1u);
-        let share = select(above, 1.0 - above, ground);
-        // A ray that belongs to the other side is turned to the horizon.
-        let turned = ground != (met_m >= 0.0);
-        let ray_mu = select(mu, cos(horizon), turned);
-        let ray_angle = select(min(zenith_angle, horizon), zenith_angle, ground);
-        let distance_m = select(select(met_m, edge_m, turned), ENDLESS_M, !ground);
-        var light: Scattered;
-        var even = vec3f(0.0);
-        if ground || ray_angle >= least_zenith_angle(air.radius_m, air.top_m, view.altitude_m) {
-            light = light_in_air(SkyViewRay(azimuth, ray_angle, ground, distance_m), ray_mu, nu);
-            even = view.sun_irradiance * light.multiple;
-            if MOONLIGHT {
-                even += moonlight_in_air(direction, mu, ray_angle, ground, distance_m);
-            }
-        }
-        let left = exp(-light.optical_depth);
-        if ground {
-            var shaded = UNSHADED;
-            if CLOUDS {
-                let p = cloud_frame.place_m + distance_m * direction;
-                let mu_light = dot(normalize(p + vec3f(0.0, 0.0, air.radius_m)), cloud_frame.light);
-                shaded = ground_shaded(shade, shade_maps, linear_clamp, air.radius_m, p, cloud_frame.light, mu_light);
-            }
-            var behind = ground_radiance(air, view, nu, distance_m, transmittance_table, irradiance_table, linear_clamp, shaded);
-            if AIRGLOW {
-                behind += air.ground_albedo / PI * glow.ground_irradiance;
-            }
-            if MOONLIGHT {
-                let nu_moon = clamp(dot(direction, moon_view.sun), -1.0, 1.0);
-                behind += ground_radiance(air, moon_view, nu_moon, distance_m, transmittance_table, irradiance_table, linear_clamp, shaded);
-            }
-            even += left * behind;
-        }
-        if AIRGLOW {
-            even += airglow_radiance(glow, air.radius_m, view.altitude_m, mu, distance_m, light.optical_depth);
-        }
-        sum.rayleigh += share * light.rayleigh;
-        sum.mie += share * light.mie;
-        sum.even += share * even;
-        sum.left += select(share, 0.0, ground) * left;
-    }
-    return sum;
-}
-
-// Light of a run of pixels from that at its ends, where it runs evenly: both the angle from the zenith and that to the
-// light change by less than a part of a table's cell, and the run stays away from the horizon by many times its own
-// change, since there all runs by the distance from it. Seen from above, the air over the limb does not run evenly.
-const EVEN_ANGLE = 0.025;
-const EVEN_SHARE = 0.06;
-
-fn is_even_run(mu_first: f32, mu_last: f32, length: f32) -> bool {
-    let least_mu = cos(least_zenith_angle(air.radius_m, air.top_m, view.altitude_m));
-    if view.altitude_m > air.top_m && min(mu_first, mu_last) > least_mu {
-        // Nothing but space.
-        return true;
-    }
-    let horizon_mu = cos(edge_zenith_angle(air.radius_m, view.altitude_m));
-    let near = min(abs(mu_first - horizon_mu), abs(mu_last - horizon_mu));
-    let one_side = (mu_first < horizon_mu) == (mu_last < horizon_mu);
-    if CLOUDS && mu_first < horizon_mu {
-        // The ground has shadows on it.
-        return false;
-    }
-    let inside = mu_first < horizon_mu || view.altitude_m < 0.2 * air.top_m;
-    let change = abs(mu_first - mu_last);
-    return one_side && inside && length < EVEN_ANGLE && change < EVEN_SHARE * near && near > 2.0 * camera.pixel_angle;
-}
-
-fn radiance_of(light: Light, nu: f32, disc: vec3f) -> vec3f {
-    let single = rayleigh_phase(nu) * light.rayleigh + cornette_shanks_phase(nu, air.mie_asymmetry) * light.mie;
-    return view.sun_irradiance * single + light.even + light.left * disc;
-}
-
-@compute @workgroup_size(8, 8)
-fn sky(@builtin(global_invocation_id) id: vec3u) {
-    let first = id.x * SPAN;
-    if first >= tile.size_px.x || id.y >= tile.size_px.y {
-        return;
-    }
-    let count = min(SPAN, tile.size_px.x - first);
-    let row = vec2f(tile.origin_px + vec2u(first, id.y)) + 0.5;
+// Some pixels of a row, which may share the light at the first and the last of SPAN from `first` on.
+fn write_run(first: vec2u, begin: u32, end: u32, left: f32) {
+    let row = vec2f(first) + 0.5;
     var even = false;
     var at_first: Light;
     var at_last: Light;
@@ -311,17 +88,15 @@ fn sky(@builtin(global_invocation_id) id: vec3u) {
             at_last = light_towards(b.direction, mu_b, clamp(dot(b.direction, view.sun), -1.0, 1.0));
         }
     }
-    for (var k = 0u; k < count; k++) {
+    for (var k = begin; k < end; k++) {
         let place = row + vec2f(f32(k), 0.0);
         let sight = sight_at(camera, PROJECTION, place);
         var value = vec4f(0.0);
         if sight.seen {
             var disc = disc_in_pixel(place, sight.direction);
-            var glaring = view.sun;
             if MOON {
                 disc = moon.sun_disc_scale * disc + moon_in_pixel(place, sight.direction);
                 disc += moon.sun_disc_scale * corona_towards(sight.direction);
-                glaring = select(view.sun, moon.direction, moon.glares == 1.0);
             }
             let nu = clamp(dot(sight.direction, view.sun), -1.0, 1.0);
             var light: Light;
@@ -334,22 +109,138 @@ fn sky(@builtin(global_invocation_id) id: vec3u) {
             } else {
                 light = light_towards(sight.direction, dot(sight.direction, view.up), nu);
             }
-            var seen = radiance_of(light, nu, disc);
-            if CLOUDS {
-                let clouds = clouds_before(cloud_table, vec2u(first + k, id.y), cloud_frame.fineness);
-                seen = max(clouds.a * seen + clouds.rgb, vec3f(0.0));
-            }
-            value = vec4f(seen, 1.0 + angle_if_near(sight.direction, glaring));
+            let seen = with_clouds(radiance_of(light, nu, disc), place);
+            value = vec4f(seen, 1.0 + angle_if_near(sight.direction, glaring()));
         }
-        let i = id.y * tile.size_px.x + first + k;
+        let pixel = first + vec2u(k, 0u);
+        let i = (pixel.y - tile.origin_px.y) * tile.size_px.x + pixel.x - tile.origin_px.x;
         if PICTURE {
-            var disc_left = 1.0;
-            if CLOUDS {
-                disc_left = textureSampleLevel(disc_clouds, linear_clamp, vec2f(0.5), 0.0).a;
-            }
-            picture[i] = picture_pixel(tone_settings, exposure.scale, CURVE, disc_left, value, tile.origin_px + vec2u(first + k, id.y));
+            picture[i] = picture_pixel(tone_settings, exposure.scale, CURVE, left, value, pixel);
         } else {
             radiance[i] = value;
         }
+    }
+}
+
+// Lattices lie on the whole frame, so that tiles leave no seam. This is the first place of the tile's part.
+fn first_place(grain: vec2u) -> vec2u {
+    return tile.origin_px / grain;
+}
+
+// Places of the tile's part. One more than reaches its end, so that the last place has a cell as it has in the next tile.
+fn place_count(grain: vec2u) -> vec2u {
+    return (tile.origin_px + tile.size_px + grain - 1u) / grain - first_place(grain) + 2u;
+}
+
+// The clear sky at a place of the finer lattice, where the first one's cell is even.
+struct Clear {
+    even: bool,
+    seen: vec3f,
+}
+
+fn clear_from_lattice(place: vec2u) -> Clear {
+    let grain = vec2u(COARSE_X, COARSE_Y);
+    let cell = place / grain;
+    let width = place_count(grain).x;
+    let at = cell - first_place(grain);
+    let i = at.y * width + at.x;
+    let part = vec2f(place - cell * grain) / vec2f(grain);
+    let corner = lattice[i];
+    let top = mix(corner.rgb, lattice[i + 1u].rgb, part.x);
+    let bottom = mix(lattice[i + width].rgb, lattice[i + width + 1u].rgb, part.x);
+    return Clear(corner.a == 1.0, mix(top, bottom, part.y));
+}
+
+fn write_place(id: vec2u) {
+    let grain = vec2u(GRAIN_X, GRAIN_Y);
+    let count = place_count(grain);
+    // Of the finer lattice nobody reads the last places, nor are there any of the first beside them.
+    if any(id >= count - select(0u, 1u, STAGE == 2u)) {
+        return;
+    }
+    let pixel = (first_place(grain) + id) * grain;
+    let place = vec2f(pixel);
+    let sight = sight_at(camera, PROJECTION, place);
+    var clear: Clear;
+    if STAGE == 2u {
+        clear = clear_from_lattice(pixel);
+    }
+    if sight.seen && !clear.even {
+        let nu = clamp(dot(sight.direction, view.sun), -1.0, 1.0);
+        clear.seen = radiance_of(light_towards(sight.direction, dot(sight.direction, view.up), nu), nu, vec3f(0.0));
+    }
+    let to_be_clouded = CLOUDS && STAGE == 1u;
+    let veil = tone_settings.glare > 0.0 && any(tone_settings.glaring_irradiance > vec3f(0.0));
+    let even = is_even_cell(place, vec2f(grain), veil && !to_be_clouded, glaring(), to_be_clouded);
+    var shown = clear.seen;
+    if !to_be_clouded {
+        let seen = vec4f(with_clouds(clear.seen, place), 1.0 + angle_if_near(sight.direction, glaring()));
+        shown = shown_colour(tone_settings, exposure.scale, CURVE, disc_left(), seen);
+    }
+    next_lattice[id.y * count.x + id.x] = vec4f(shown, select(0.0, 1.0, even));
+}
+
+// A block of pixels from the lattice's places about it, or each from its own ray where a cell of it is not even.
+fn write_block(id: vec2u) {
+    let grain = vec2u(GRAIN_X, GRAIN_Y);
+    let size = vec2u(BLOCK, GRAIN_Y);
+    let first = (tile.origin_px / size + id) * size;
+    let begin = max(first, tile.origin_px);
+    let end = min(first + size, tile.origin_px + tile.size_px);
+    if any(begin >= end) {
+        return;
+    }
+    let width = place_count(grain).x;
+    let corner = first / grain;
+    // Of a tile that begins within the block, only the cells from there on.
+    let at = max(corner, first_place(grain)) - first_place(grain);
+    let cells_begin = max(corner.x, first_place(grain).x);
+    let cells_end = (end.x + GRAIN_X - 1u) / GRAIN_X;
+    var i = at.y * width + at.x;
+    var even = true;
+    for (var x = cells_begin; x < cells_end; x++) {
+        even &= lattice[i + x - cells_begin].a == 1.0;
+    }
+    if !even {
+        let left = disc_left();
+        for (var y = begin.y; y < end.y; y++) {
+            write_run(vec2u(first.x, y), begin.x - first.x, end.x - first.x, left);
+        }
+        return;
+    }
+    var top = lattice[i].rgb;
+    var bottom = lattice[i + width].rgb;
+    for (var x = cells_begin; x < cells_end; x++) {
+        i++;
+        let next_top = lattice[i].rgb;
+        let next_bottom = lattice[i + width].rgb;
+        let from_x = max(x * GRAIN_X, begin.x);
+        let to_x = min((x + 1u) * GRAIN_X, end.x);
+        for (var y = begin.y; y < end.y; y++) {
+            let down = (f32(y - first.y) + 0.5) / f32(GRAIN_Y);
+            let row_begin = mix(top, bottom, down);
+            let slope = (mix(next_top, next_bottom, down) - row_begin) / f32(GRAIN_X);
+            let row = (y - tile.origin_px.y) * tile.size_px.x - tile.origin_px.x;
+            for (var column = from_x; column < to_x; column++) {
+                let shown = row_begin + (f32(column - x * GRAIN_X) + 0.5) * slope;
+                picture[row + column] = packed_pixel(tone_settings, shown, true, vec2u(column, y));
+            }
+        }
+        top = next_top;
+        bottom = next_bottom;
+    }
+}
+
+@compute @workgroup_size(8, 8)
+fn sky(@builtin(global_invocation_id) id: vec3u) {
+    switch STAGE {
+        case 0u: {
+            let first = id.x * SPAN;
+            if first < tile.size_px.x && id.y < tile.size_px.y {
+                write_run(tile.origin_px + vec2u(first, id.y), 0u, min(SPAN, tile.size_px.x - first), disc_left());
+            }
+        }
+        case 3u: { write_block(id.xy); }
+        default: { write_place(id.xy); }
     }
 }

@@ -48,7 +48,7 @@ fn stars(@builtin(global_invocation_id) id: vec3u) {
     var left = light_left(air, transmittance_table, linear_clamp, view.altitude_m, mu);
     let pixel = glint.pixel - stretch.origin;
     if CLOUDS {
-        let place = vec2u(pixel % stretch.width, pixel / stretch.width);
+        let place = vec2f(f32(pixel % stretch.width), f32(pixel / stretch.width)) + 0.5;
         left *= clouds_before(cloud_table, place, stretch.cloud_fineness).a;
     }
     radiance[pixel] += vec4f(stretch.out * left * glint.radiance, 0.0);

@@ -77,10 +77,10 @@ fn ground_shaded(
     return Shaded(slab_transmission(shade.asymmetry, cosine, depth * cosine), shade.diffuse_left);
 }
 
-// From the table of a tile's clouds, which has a margin of one texel, at a pixel of the tile; `fineness` is texels to a
-// pixel. Weighed here and not by a sampler, whose rounding would show where tiles meet.
-fn clouds_before(table: texture_2d<f32>, pixel: vec2u, fineness: f32) -> vec4f {
-    let at = 0.5 + (vec2f(pixel) + 0.5) * fineness;
+// From the table of a tile's clouds, which has a margin of one texel, at a place in the tile, in pixels; `fineness` is
+// texels to a pixel. Weighed here and not by a sampler, whose rounding would show where tiles meet.
+fn clouds_before(table: texture_2d<f32>, place: vec2f, fineness: f32) -> vec4f {
+    let at = 0.5 + place * fineness;
     let first = vec2u(at);
     let part = fract(at);
     let last = textureDimensions(table) - 1u;

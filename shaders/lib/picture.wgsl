@@ -56,13 +56,12 @@ fn lens_glare(tone: Tone, angle: f32) -> vec3f {
     return tone.glare * veil * tone.glaring_irradiance;
 }
 
-// R, G, B, A bytes, from the least significant. `seen.a` is 0 where the projection sees nothing, else one more than the
-// angle from the disc that glares. `curve`: 0 reinhard, 1 exponential, 2 aces, 3 agx; constant where it is called, so
-// that no device computes all four. `disc`: what comes through to the lens of the disc that glares. `pixel` is the place in the whole frame.
-fn picture_pixel(tone: Tone, exposure_scale: f32, curve: u32, disc: f32, seen: vec4f, pixel: vec2u) -> u32 {
+// R, G and B of the picture from 0 to 255, before they are dithered. `seen.a` is 0 where the projection sees nothing, else
+// one more than the angle from the disc that glares. `curve`: 0 reinhard, 1 exponential, 2 aces, 3 agx; constant where it
+// is called, so that no device computes all four. `disc`: what comes through to the lens of the disc that glares.
+fn shown_colour(tone: Tone, exposure_scale: f32, curve: u32, disc: f32, seen: vec4f) -> vec3f {
     let gain = select(tone.gain, LUMINANCE_PER_RADIANCE * exposure_scale, tone.metered == 1u);
-    let is_seen = seen.a > 0.0;
-    let exposed = gain * (seen.rgb + select(vec3f(0.0), disc * lens_glare(tone, seen.a - 1.0), is_seen));
+    let exposed = gain * (seen.rgb + select(vec3f(0.0), disc * lens_glare(tone, seen.a - 1.0), seen.a > 0.0));
     let balanced = max(vec3f(dot(tone.white_r, exposed), dot(tone.white_g, exposed), dot(tone.white_b, exposed)), vec3f(0.0));
     var shown: vec3f;
     switch curve {
@@ -71,9 +70,19 @@ fn picture_pixel(tone: Tone, exposure_scale: f32, curve: u32, disc: f32, seen: v
         case 2u: { shown = srgb_encode(aces(balanced)); }
         default: { shown = srgb_of_gamma_22(agx(balanced)); }
     }
-    var bytes = 255.0 * shown;
+    return 255.0 * shown;
+}
+
+// R, G, B, A bytes, from the least significant, dithered by the place in the whole frame; what is not seen is black.
+fn packed_pixel(tone: Tone, shown: vec3f, is_seen: bool, pixel: vec2u) -> u32 {
+    var bytes = shown;
     if tone.dither == 1u && is_seen {
         bytes += dither_noise(pixel);
     }
     return pack4x8unorm(vec4f(bytes / 255.0, 1.0));
+}
+
+// From what is seen to the bytes.
+fn picture_pixel(tone: Tone, exposure_scale: f32, curve: u32, disc: f32, seen: vec4f, pixel: vec2u) -> u32 {
+    return packed_pixel(tone, shown_colour(tone, exposure_scale, curve, disc, seen), seen.a > 0.0, pixel);
 }

@@ -207,6 +207,7 @@ impl Engine {
                     .discs_left(gpu, scape, scene, &tables.stand, &night)
             })?;
             let camera_part = Part::new(&camera);
+            let by_lattices = order.quality == Quality::Preview && tables.plan.runs_evenly();
             Ok((
                 Prepared {
                     tables,
@@ -220,6 +221,7 @@ impl Engine {
                     disc_clouds,
                     exposure,
                     grain,
+                    by_lattices,
                     discs_left,
                     generation: self.generation,
                 },
@@ -260,12 +262,17 @@ impl Engine {
                 any_table: &frame.tables.transmittance,
             };
             let display = order.output == Output::Display;
+            // A preview by lattices is made anew sooner than its radiance could be toned.
+            let by_lattices = display && frame.stars.is_none() && frame.by_lattices;
             // Whoever comes twice turns at the display: for them the radiance is kept.
-            let at_once = display && frame.stars.is_none() && buffers.shown != Some(made_from);
+            let comes_first = display && frame.stars.is_none() && buffers.shown != Some(made_from);
+            let at_once = by_lattices || comes_first;
             // Both emptied until the commands have run.
             let (held, _) = (buffers.holds.take(), buffers.shown.take());
-            if held != Some(made_from) {
-                let to = if at_once {
+            if by_lattices || held != Some(made_from) {
+                let to = if by_lattices {
+                    SkyTo::Preview(tone, &buffers.picture)
+                } else if at_once {
                     SkyTo::Picture(tone, &buffers.picture)
                 } else {
                     SkyTo::Radiance(&buffers.radiance)
@@ -282,7 +289,7 @@ impl Engine {
                         .run(&mut recorder, reads, stars, tile, &buffers.radiance);
                 }
             }
-            let is_held = held == Some(made_from) || !at_once;
+            let is_held = !by_lattices && (held == Some(made_from) || !at_once);
             if display && is_held {
                 self.tone
                     .run(&mut recorder, tone, &buffers.radiance, &buffers.picture);

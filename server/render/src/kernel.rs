@@ -16,6 +16,7 @@ pub(crate) struct Kernel {
 }
 
 /// What is bound, in the order of the shader's bindings.
+#[derive(Clone, Copy)]
 pub(crate) enum Bind<'a> {
     Buffer(&'a wgpu::Buffer),
     Table(&'a wgpu::TextureView),

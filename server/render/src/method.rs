@@ -4,7 +4,7 @@ use crate::{
     camera::projection_code,
     uniforms::{AirUniform, Standpoint},
 };
-use welkin_scene::{Method, Quality, Scene};
+use welkin_scene::{Method, Projection, Quality, Scene};
 
 /// Steps of an integral to the sun where the scene does not say: within 0.01 % for the Earth from a table's entry.
 const TABLE_SUN_STEPS: u32 = 64;
@@ -99,6 +99,12 @@ impl Plan {
             Method::Table => view.div_ceil(4),
             Method::Nested => (view * sun).div_ceil(16),
         }
+    }
+
+    /// True where few places tell of the pixels between them: not where each pixel has a ray of its own, nor across the
+    /// faces of a cubemap.
+    pub(crate) fn runs_evenly(&self) -> bool {
+        self.method == Method::Lut && self.projection != projection_code(&Projection::Cubemap {})
     }
 
     /// The constants of the shaders that follow light through the air.

@@ -38,6 +38,8 @@ pub(crate) struct Prepared {
     pub(crate) disc_clouds: Option<Table>,
     pub(crate) exposure: Arc<wgpu::Buffer>,
     pub(crate) grain: u32,
+    /// True for a preview whose pixels may be interpolated.
+    pub(crate) by_lattices: bool,
     /// What clouds leave of the light of sun and moon.
     pub(crate) discs_left: DiscsLeft,
     /// The device that holds it.

@@ -9,6 +9,7 @@ use crate::{
     camera::{CameraUniform, projection_code},
     cloudscape::Cloudscape,
     frame_job::RUN,
+    gpu::Gpu,
     kernel::{Bind, Recorder, Variants},
     memo::Fingerprint,
     method::Plan,
@@ -28,11 +29,18 @@ pub(crate) enum SkyTo<'a> {
     Radiance(&'a wgpu::Buffer),
     /// Four bytes a pixel, where nothing else reads the radiance.
     Picture(ToneInputs<'a>, &'a wgpu::Buffer),
+    /// The same by way of lattices.
+    Preview(ToneInputs<'a>, &'a wgpu::Buffer),
 }
+
+/// Pixels between the places at which a preview looks at the clear sky, across and down, and at clouds.
+const CLEAR_GRAIN: UVec2 = UVec2::new(8, 8);
+const CLOUD_GRAIN: UVec2 = UVec2::new(2, 2);
 
 pub(crate) struct Sky {
     kernels: Variants,
     clouds: CloudView,
+    lattices: [Lattice; 2],
 }
 
 /// What the pass reads.
@@ -121,6 +129,7 @@ impl Sky {
         Self {
             kernels: Variants::new(&shader::SKY),
             clouds: CloudView::new(),
+            lattices: [Lattice::default(), Lattice::default()],
         }
     }
 
@@ -140,7 +149,7 @@ impl Sky {
                 let nothing = Part::new(&ToneUniform::default());
                 (radiance, &unused(), &unused(), nothing, None)
             }
-            SkyTo::Picture(tone, picture) => {
+            SkyTo::Picture(tone, picture) | SkyTo::Preview(tone, picture) => {
                 let settings = Part::new(tone.settings);
                 (&unused(), picture, tone.exposure, settings, Some(tone))
             }
@@ -175,6 +184,17 @@ impl Sky {
         let face = inputs.moon.map_or(&inputs.transmittance.view, |m| m.face);
         let airglow = inputs.airglow.upload(gpu, "airglow");
         let disc = tone.and_then(|tone| tone.disc_clouds);
+        let places = |grain: UVec2| place_count(tile, grain);
+        let count = |grain: UVec2| u64::from(places(grain).x) * u64::from(places(grain).y);
+        let preview = matches!(to, SkyTo::Preview(..));
+        let [first, second] = &mut self.lattices;
+        let (nothing, other) = (unused(), unused());
+        let (first, second) = if preview {
+            let second = clouds.as_ref().map(|_| second.fit(gpu, count(CLOUD_GRAIN)));
+            (first.fit(gpu, count(CLEAR_GRAIN)), second.unwrap_or(&nothing))
+        } else {
+            (&nothing, &nothing)
+        };
         let binds = [
             Bind::Buffer(&air),
             Bind::Buffer(&view),
@@ -231,9 +251,72 @@ impl Sky {
         if inputs.sky_view.is_none() {
             constants.extend(inputs.plan.march_constants());
         }
-        let kernel = self.kernels.get(gpu, &constants);
-        let threads = [tile.size_px.x.div_ceil(span), tile.size_px.y, 1];
-        recorder.dispatch(kernel, &binds, threads);
+        let mut stage = |stage: f64, grain: UVec2, lattices: [&wgpu::Buffer; 2], threads: UVec2| {
+            let [from, to] = lattices;
+            let mut constants = constants.clone();
+            if preview {
+                constants.extend(grains(stage, grain));
+            }
+            let kernel = self.kernels.get(gpu, &constants);
+            let all: Vec<_> = binds
+                .iter()
+                .copied()
+                .chain([from, to].map(Bind::Buffer))
+                .collect();
+            recorder.dispatch(kernel, &all, [threads.x, threads.y, 1]);
+        };
+        if !preview {
+            let threads = UVec2::new(tile.size_px.x.div_ceil(span), tile.size_px.y);
+            stage(0.0, UVec2::ONE, [&nothing, &other], threads);
+        } else {
+            stage(1.0, CLEAR_GRAIN, [&nothing, first], places(CLEAR_GRAIN));
+            let (grain, lattice) = if clouds.is_some() {
+                stage(2.0, CLOUD_GRAIN, [first, second], places(CLOUD_GRAIN));
+                (CLOUD_GRAIN, second)
+            } else {
+                (CLEAR_GRAIN, first)
+            };
+            stage(3.0, grain, [lattice, &other], blocks(tile, grain));
+        }
         clouds
     }
+}
+
+/// A buffer of places, made when the first is asked for and again when a larger one is.
+#[derive(Default)]
+struct Lattice(Option<(u64, wgpu::Buffer)>);
+
+impl Lattice {
+    fn fit(&mut self, gpu: &Gpu, places: u64) -> &wgpu::Buffer {
+        let kept = self.0.take().filter(|(there, _)| *there >= places);
+        let make = || {
+            (
+                places,
+                gpu.buffer("lattice", 16 * places, wgpu::BufferUsages::STORAGE),
+            )
+        };
+        &self.0.insert(kept.unwrap_or_else(make)).1
+    }
+}
+
+/// `place_count` of the shader.
+fn place_count(tile: TileUniform, grain: UVec2) -> UVec2 {
+    let end = tile.origin_px + tile.size_px;
+    (end + grain - 1) / grain - tile.origin_px / grain + 2
+}
+
+/// Blocks of pixels, `RUN` to a row, that the tile has a part of.
+fn blocks(tile: TileUniform, grain: UVec2) -> UVec2 {
+    let size = UVec2::new(RUN, grain.y);
+    (tile.origin_px + tile.size_px + size - 1) / size - tile.origin_px / size
+}
+
+fn grains(stage: f64, grain: UVec2) -> [(&'static str, f64); 5] {
+    [
+        ("STAGE", stage),
+        ("GRAIN_X", f64::from(grain.x)),
+        ("GRAIN_Y", f64::from(grain.y)),
+        ("COARSE_X", f64::from(CLEAR_GRAIN.x)),
+        ("COARSE_Y", f64::from(CLEAR_GRAIN.y)),
+    ]
 }
