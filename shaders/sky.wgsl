@@ -214,16 +214,18 @@ fn write_block(id: vec2u) {
         i++;
         let next_top = lattice[i].rgb;
         let next_bottom = lattice[i + width].rgb;
-        let from_x = max(x * GRAIN_X, begin.x);
-        let to_x = min((x + 1u) * GRAIN_X, end.x);
+        let column = x * GRAIN_X;
         for (var y = begin.y; y < end.y; y++) {
             let down = (f32(y - first.y) + 0.5) / f32(GRAIN_Y);
             let row_begin = mix(top, bottom, down);
             let slope = (mix(next_top, next_bottom, down) - row_begin) / f32(GRAIN_X);
-            let row = (y - tile.origin_px.y) * tile.size_px.x - tile.origin_px.x;
-            for (var column = from_x; column < to_x; column++) {
-                let shown = row_begin + (f32(column - x * GRAIN_X) + 0.5) * slope;
-                picture[row + column] = packed_pixel(tone_settings, shown, true, vec2u(column, y));
+            let row = (y - tile.origin_px.y) * tile.size_px.x - tile.origin_px.x + column;
+            var shown = row_begin - 0.5 * slope;
+            for (var k = 0u; k < GRAIN_X; k++) {
+                shown += slope;
+                if column + k >= begin.x && column + k < end.x {
+                    picture[row + k] = packed_pixel(tone_settings, shown, true, vec2u(column + k, y));
+                }
             }
         }
         top = next_top;

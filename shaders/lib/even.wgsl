@@ -31,7 +31,7 @@ fn is_even_run(mu_first: f32, mu_last: f32, length: f32) -> bool {
 // A cell of a preview's lattice is even where linear interpolation between its corners stays within a step of 8-bit
 // colour. Over the horizon by an angle θ the light runs as a function of √θ: over a cell of height h the error is h²/32 θ^-3/2
 // of its slope by √θ, and falls with h/θ.
-const CELL_SHARE = 0.35;
+const CELL_SHARE = 1.0;
 // The lens' veil runs as 1/θ² about its source: its error is 3/4 (h/θ)² of itself.
 const VEIL_CELLS = 6.0;
 // As many radii of the sun its corona reaches in an eclipse.

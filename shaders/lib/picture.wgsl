@@ -42,7 +42,8 @@ fn hash(v: vec3u) -> vec3u {
 // a word are two even noises.
 fn dither_noise(pixel: vec2u) -> vec3f {
     let word = hash(vec3u(pixel, 0u));
-    return (vec3f(word >> vec3u(16u)) - vec3f(word & vec3u(0xffffu))) / 65536.0;
+    // Signed: processors turn these into floats in one step.
+    return vec3f(vec3i(word >> vec3u(16u)) - vec3i(word & vec3u(0xffffu))) / 65536.0;
 }
 
 // Veiling luminance falls as E/θ² about a bright source and as E/θ³ farther off (CIE 146 has 10/θ³ + 5/θ² with θ in
@@ -79,7 +80,10 @@ fn packed_pixel(tone: Tone, shown: vec3f, is_seen: bool, pixel: vec2u) -> u32 {
     if tone.dither == 1u && is_seen {
         bytes += dither_noise(pixel);
     }
-    return pack4x8unorm(vec4f(bytes / 255.0, 1.0));
+    // 2^23 and a number under it, as a float, is 0x4b000000 and that number, rounded, as bits. The sum of what the three put
+    // into the highest byte is made 255 by the last term.
+    let rounded = bitcast<vec3u>(clamp(bytes, vec3f(0.0), vec3f(255.0)) + 8388608.0);
+    return rounded.r + (rounded.g << 8u) + (rounded.b << 16u) + 0xb4000000u;
 }
 
 // From what is seen to the bytes.
