@@ -3,11 +3,11 @@
 // takes the clear sky from the first; and the pixels between.
 import package::lib::camera::sight_at;
 import package::lib::cloud_shade::clouds_before;
-import package::lib::even::{is_even_cell, is_even_run};
+import package::lib::even::{cell_evenness, is_even_run};
 import package::lib::geometry::angle_if_near;
 import package::lib::picture::{Exposure, Tone, packed_pixel, picture_pixel, shown_colour};
 import package::lib::sky_light::{
-    CLOUDS, Light, MOON, PROJECTION, camera, cloud_frame, corona_towards, disc_in_pixel, light_towards, linear_clamp, moon,
+    CLOUDS, Light, MOON, PROJECTION, camera, cloud_frame, corona_towards, disc_in_pixel, light_towards, moon,
     moon_in_pixel, radiance_of, view,
 };
 
@@ -41,25 +41,16 @@ struct Tile {
 @group(0) @binding(18) var<storage, read_write> picture: array<u32>;
 // What clouds add in R, G and B, and what they let through.
 @group(0) @binding(19) var cloud_table: texture_2d<f32>;
-@group(0) @binding(23) var disc_clouds: texture_2d<f32>;
-// A place of a lattice: R, G, B of the clear sky's radiance or, for the last stage, from 0 to 255; alpha is 1 where the
-// cell right and down of it is even.
-@group(0) @binding(24) var<storage, read> lattice: array<vec4f>;
-@group(0) @binding(25) var<storage, read_write> next_lattice: array<vec4f>;
+// A place of a lattice: R, G, B of the clear sky's radiance or, for the last stage, from 0 to 255; alpha tells of the
+// cell right and down of it: 0 uneven, 1 even but for shadows on the ground, 2 even.
+@group(0) @binding(23) var<storage, read> lattice: array<vec4f>;
+@group(0) @binding(24) var<storage, read_write> next_lattice: array<vec4f>;
 
 // Pixels of a row that share a thread of the last stage, and of which uneven ones may share as SPAN says.
 const BLOCK = 8u;
 
 fn glaring() -> vec3f {
     return select(view.sun, moon.direction, MOON && moon.glares == 1.0);
-}
-
-// What the lens gets of the disc that glares.
-fn disc_left() -> f32 {
-    if CLOUDS {
-        return textureSampleLevel(disc_clouds, linear_clamp, vec2f(0.5), 0.0).a;
-    }
-    return 1.0;
 }
 
 // Before the clouds, if there are any, at a place of the frame.
@@ -72,7 +63,7 @@ fn with_clouds(behind: vec3f, place: vec2f) -> vec3f {
 }
 
 // Some pixels of a row, which may share the light at the first and the last of SPAN from `first` on.
-fn write_run(first: vec2u, begin: u32, end: u32, left: f32) {
+fn write_run(first: vec2u, begin: u32, end: u32) {
     let row = vec2f(first) + 0.5;
     var even = false;
     var at_first: Light;
@@ -115,7 +106,7 @@ fn write_run(first: vec2u, begin: u32, end: u32, left: f32) {
         let pixel = first + vec2u(k, 0u);
         let i = (pixel.y - tile.origin_px.y) * tile.size_px.x + pixel.x - tile.origin_px.x;
         if PICTURE {
-            picture[i] = picture_pixel(tone_settings, exposure.scale, CURVE, left, value, pixel);
+            picture[i] = picture_pixel(tone_settings, exposure.scale, CURVE, value, pixel);
         } else {
             radiance[i] = value;
         }
@@ -134,8 +125,9 @@ fn place_count(grain: vec2u) -> vec2u {
 
 // The clear sky at a place of the finer lattice, where the first one's cell is even.
 struct Clear {
-    even: bool,
     seen: vec3f,
+    // As alpha.
+    even: f32,
 }
 
 fn clear_from_lattice(place: vec2u) -> Clear {
@@ -148,7 +140,7 @@ fn clear_from_lattice(place: vec2u) -> Clear {
     let corner = lattice[i];
     let top = mix(corner.rgb, lattice[i + 1u].rgb, part.x);
     let bottom = mix(lattice[i + width].rgb, lattice[i + width + 1u].rgb, part.x);
-    return Clear(corner.a == 1.0, mix(top, bottom, part.y));
+    return Clear(mix(top, bottom, part.y), corner.a);
 }
 
 fn write_place(id: vec2u) {
@@ -165,19 +157,21 @@ fn write_place(id: vec2u) {
     if STAGE == 2u {
         clear = clear_from_lattice(pixel);
     }
-    if sight.seen && !clear.even {
+    if sight.seen && clear.even < 2.0 {
         let nu = clamp(dot(sight.direction, view.sun), -1.0, 1.0);
         clear.seen = radiance_of(light_towards(sight.direction, dot(sight.direction, view.up), nu), nu, vec3f(0.0));
     }
-    let to_be_clouded = CLOUDS && STAGE == 1u;
-    let veil = tone_settings.glare > 0.0 && any(tone_settings.glaring_irradiance > vec3f(0.0));
-    let even = is_even_cell(place, vec2f(grain), veil && !to_be_clouded, glaring(), to_be_clouded);
-    var shown = clear.seen;
-    if !to_be_clouded {
-        let seen = vec4f(with_clouds(clear.seen, place), 1.0 + angle_if_near(sight.direction, glaring()));
-        shown = shown_colour(tone_settings, exposure.scale, CURVE, disc_left(), seen);
+    var even = clear.even;
+    if even == 0.0 {
+        let veil = tone_settings.glare > 0.0 && any(tone_settings.glaring_irradiance > vec3f(0.0));
+        even = cell_evenness(place, vec2f(grain), veil, glaring());
     }
-    next_lattice[id.y * count.x + id.x] = vec4f(shown, select(0.0, 1.0, even));
+    var shown = clear.seen;
+    if !CLOUDS || STAGE == 2u {
+        let seen = vec4f(with_clouds(clear.seen, place), 1.0 + angle_if_near(sight.direction, glaring()));
+        shown = shown_colour(tone_settings, exposure.scale, CURVE, seen);
+    }
+    next_lattice[id.y * count.x + id.x] = vec4f(shown, even);
 }
 
 // A block of pixels from the lattice's places about it, or each from its own ray where a cell of it is not even.
@@ -199,12 +193,11 @@ fn write_block(id: vec2u) {
     var i = at.y * width + at.x;
     var even = true;
     for (var x = cells_begin; x < cells_end; x++) {
-        even &= lattice[i + x - cells_begin].a == 1.0;
+        even &= lattice[i + x - cells_begin].a > 0.0;
     }
     if !even {
-        let left = disc_left();
         for (var y = begin.y; y < end.y; y++) {
-            write_run(vec2u(first.x, y), begin.x - first.x, end.x - first.x, left);
+            write_run(vec2u(first.x, y), begin.x - first.x, end.x - first.x);
         }
         return;
     }
@@ -239,7 +232,7 @@ fn sky(@builtin(global_invocation_id) id: vec3u) {
         case 0u: {
             let first = id.x * SPAN;
             if first < tile.size_px.x && id.y < tile.size_px.y {
-                write_run(tile.origin_px + vec2u(first, id.y), 0u, min(SPAN, tile.size_px.x - first), disc_left());
+                write_run(tile.origin_px + vec2u(first, id.y), 0u, min(SPAN, tile.size_px.x - first));
             }
         }
         case 3u: { write_block(id.xy); }

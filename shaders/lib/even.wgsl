@@ -37,9 +37,9 @@ const VEIL_CELLS = 6.0;
 // As many radii of the sun its corona reaches in an eclipse.
 const CORONA_RADII = 12.0;
 
-// `veil`: whether the lens spreads light about `glaring`. `shadows`: whether shadows on the ground count, which are finer
-// than any angle tells.
-fn is_even_cell(place: vec2f, size: vec2f, veil: bool, glaring: vec3f, shadows: bool) -> bool {
+// 0 for an uneven cell, 2 for an even one; 1 for one whose ground has shadows on it, which are finer than any angle tells.
+// `veil`: whether the lens spreads light about `glaring`.
+fn cell_evenness(place: vec2f, size: vec2f, veil: bool, glaring: vec3f) -> f32 {
     let a = sight_at(camera, PROJECTION, place);
     let b = sight_at(camera, PROJECTION, place + vec2f(size.x, 0.0));
     let c = sight_at(camera, PROJECTION, place + vec2f(0.0, size.y));
@@ -63,6 +63,6 @@ fn is_even_cell(place: vec2f, size: vec2f, veil: bool, glaring: vec3f, shadows: 
     // Seen from above, the air over the limb does not run evenly, and space over it does.
     runs &= most < horizon_mu || view.altitude_m < 0.2 * air.top_m;
     runs |= view.altitude_m > air.top_m && least > cos(least_zenith_angle(air.radius_m, air.top_m, view.altitude_m));
-    runs &= !(CLOUDS && shadows && least < horizon_mu);
-    return a.seen && b.seen && c.seen && d.seen && clear && runs;
+    let even = a.seen && b.seen && c.seen && d.seen && clear && runs;
+    return select(0.0, select(2.0, 1.0, CLOUDS && least < horizon_mu), even);
 }

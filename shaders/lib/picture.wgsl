@@ -14,7 +14,7 @@ struct Tone {
     // Multiplies radiance where nothing is metered.
     gain: vec3f,
     glare: f32,
-    // Irradiance of the visible disc at the observer: the sun's or the moon's.
+    // Irradiance of the visible disc at the observer, behind clouds: the sun's or the moon's.
     glaring_irradiance: vec3f,
     origin_px: vec2u,
     size_px: vec2u,
@@ -59,10 +59,10 @@ fn lens_glare(tone: Tone, angle: f32) -> vec3f {
 
 // R, G and B of the picture from 0 to 255, before they are dithered. `seen.a` is 0 where the projection sees nothing, else
 // one more than the angle from the disc that glares. `curve`: 0 reinhard, 1 exponential, 2 aces, 3 agx; constant where it
-// is called, so that no device computes all four. `disc`: what comes through to the lens of the disc that glares.
-fn shown_colour(tone: Tone, exposure_scale: f32, curve: u32, disc: f32, seen: vec4f) -> vec3f {
+// is called, so that no device computes all four.
+fn shown_colour(tone: Tone, exposure_scale: f32, curve: u32, seen: vec4f) -> vec3f {
     let gain = select(tone.gain, LUMINANCE_PER_RADIANCE * exposure_scale, tone.metered == 1u);
-    let exposed = gain * (seen.rgb + select(vec3f(0.0), disc * lens_glare(tone, seen.a - 1.0), seen.a > 0.0));
+    let exposed = gain * (seen.rgb + select(vec3f(0.0), lens_glare(tone, seen.a - 1.0), seen.a > 0.0));
     let balanced = max(vec3f(dot(tone.white_r, exposed), dot(tone.white_g, exposed), dot(tone.white_b, exposed)), vec3f(0.0));
     var shown: vec3f;
     switch curve {
@@ -87,6 +87,6 @@ fn packed_pixel(tone: Tone, shown: vec3f, is_seen: bool, pixel: vec2u) -> u32 {
 }
 
 // From what is seen to the bytes.
-fn picture_pixel(tone: Tone, exposure_scale: f32, curve: u32, disc: f32, seen: vec4f, pixel: vec2u) -> u32 {
-    return packed_pixel(tone, shown_colour(tone, exposure_scale, curve, disc, seen), seen.a > 0.0, pixel);
+fn picture_pixel(tone: Tone, exposure_scale: f32, curve: u32, seen: vec4f, pixel: vec2u) -> u32 {
+    return packed_pixel(tone, shown_colour(tone, exposure_scale, curve, seen), seen.a > 0.0, pixel);
 }

@@ -27,7 +27,7 @@ use crate::{
     prepared::{Prepared, Tables, sky_inputs},
     renderer::RendererSettings,
     screen::{PICTURE_BYTES, RADIANCE_BYTES, Screen},
-    sunlight::{DiscsLeft, direct_normal, moon_direct_normal},
+    sunlight::{Direct, DiscsLeft},
     uniforms::{AirUniform, Part, Standpoint, TileUniform, ToneUniform, night::AirglowUniform},
 };
 use glam::UVec2;
@@ -53,6 +53,7 @@ pub(crate) struct Engine {
     clouds: CloudPasses,
     screen: Screen,
     night_light: Memo<NightLight>,
+    direct: Memo<Direct>,
     pub(crate) generation: u64,
     pub(crate) gpu: Gpu,
 }
@@ -97,6 +98,7 @@ impl Engine {
             clouds,
             screen: Screen::default(),
             night_light: Memo::new(8),
+            direct: Memo::new(8),
             generation,
             gpu,
         })
@@ -155,7 +157,14 @@ impl Engine {
             });
             let glow = airglow(&mut self.night_light, scene, &tables);
             let face = || moon_face(&self.moon_face, gpu);
-            let lights = Lights::new(scene, &tables.stand, night, glow, face, moon_sky_view);
+            let of_discs = Fingerprint::of((
+                &tables.air,
+                format!("{:?} {night:?} {:?}", tables.stand, scene.sun),
+            ));
+            let direct = self
+                .direct
+                .get_or(of_discs, || Direct::new(scene, &tables.stand, &night));
+            let lights = Lights::new(scene, &tables.stand, night, &direct, glow, face, moon_sky_view);
             let stars = scene.stars.as_ref().filter(|_| night.stars > 0.0).map(|stars| {
                 let (seen_by, hidden_by) =
                     ((&scene.camera, size_px), night.screens(&tables.stand, &scene.sun));
@@ -170,12 +179,6 @@ impl Engine {
                 let light = CloudLight::new(&tables.stand, &night, &lights);
                 self.clouds
                     .scape(&mut recorder, &tables, (&sky, textures), light, order.quality)
-            });
-            let disc_clouds = clouds.as_ref().map(|scape| {
-                let glare = &lights.glare;
-                let (towards, diameter_deg) = (glare.direction, glare.diameter_deg);
-                self.sky
-                    .clouds_before_disc(&mut recorder, scape, towards, diameter_deg)
             });
             let grain = match order.quality {
                 Quality::Preview => PREVIEW_GRAIN,
@@ -206,6 +209,7 @@ impl Engine {
                     .clouds
                     .discs_left(gpu, scape, scene, &tables.stand, &night)
             })?;
+            let glare = lights.glare.behind(discs_left);
             let camera_part = Part::new(&camera);
             let by_lattices = order.quality == Quality::Preview && tables.plan.runs_evenly();
             Ok((
@@ -218,11 +222,11 @@ impl Engine {
                     sky_view,
                     stars,
                     clouds,
-                    disc_clouds,
                     exposure,
                     grain,
                     by_lattices,
-                    discs_left,
+                    glare,
+                    direct: direct.behind(discs_left),
                     generation: self.generation,
                 },
                 times,
@@ -252,14 +256,12 @@ impl Engine {
                 &frame.camera,
                 &frame.tables.stand,
                 tile,
-                &frame.lights.glare,
+                &frame.glare,
             );
             let tone = ToneInputs {
                 curve: order.scene.display.tone_curve,
                 settings: &settings,
                 exposure: &frame.exposure,
-                disc_clouds: frame.disc_clouds.as_ref(),
-                any_table: &frame.tables.transmittance,
             };
             let display = order.output == Output::Display;
             // A preview by lattices is made anew sooner than its radiance could be toned.
@@ -341,14 +343,12 @@ fn airglow(memo: &mut Memo<NightLight>, scene: &Scene, tables: &Tables) -> Part 
 }
 
 /// What a frame says of itself.
-pub(crate) fn facts(scene: &Scene, left: DiscsLeft, ev100: Option<f64>) -> FrameFacts {
-    let stand = Standpoint::new(scene);
-    let night = Night::new(scene, &stand);
+pub(crate) fn facts(scene: &Scene, direct: &Direct, ev100: Option<f64>) -> FrameFacts {
     FrameFacts {
         sun: scene.sun_place(),
-        sun_irradiance_w_m2: direct_normal(scene, &stand, &night).map(|e| left.sun * e),
+        sun_irradiance_w_m2: direct.sun,
         moon: scene.moon_place(),
-        moon_irradiance_w_m2: moon_direct_normal(scene, &stand, &night).map(|e| left.moon * e),
+        moon_irradiance_w_m2: direct.moon,
         ev100,
     }
 }

@@ -153,7 +153,7 @@ impl FrameJob {
             height_px: size.y,
             pixels: std::mem::replace(&mut self.pixels, empty),
             passes: std::mem::take(&mut self.passes),
-            facts: facts(&self.order.scene, prepared.discs_left, self.ev100),
+            facts: facts(&self.order.scene, &prepared.direct, self.ev100),
         })))
     }
 }

@@ -4,7 +4,7 @@ use crate::{
     colour,
     night::Night,
     passes::{Table, sky::MoonInputs},
-    sunlight::{direct_normal, moon_direct_normal},
+    sunlight::{Direct, DiscsLeft},
     uniforms::{Part, Standpoint, ViewUniform},
 };
 use std::sync::Arc;
@@ -34,16 +34,17 @@ pub(crate) struct Glare {
     /// At the observer, W/m²; zero where the disc is not shown.
     pub(crate) irradiance_w_m2: [f64; 3],
     pub(crate) diameter_deg: f64,
-    /// Towards it.
-    pub(crate) direction: [f64; 3],
+    /// The moon's, else the sun's.
+    of_moon: bool,
 }
 
 impl Lights {
-    /// `moon_sky_view` is the light of the moon in the air, where it counts.
+    /// `direct` is of a clear sky, `moon_sky_view` the light of the moon in the air, where it counts.
     pub(crate) fn new(
         scene: &Scene,
         stand: &Standpoint,
         night: Night,
+        direct: &Direct,
         airglow: Part,
         face: impl FnOnce() -> wgpu::TextureView,
         moon_sky_view: Option<Arc<Table>>,
@@ -55,14 +56,14 @@ impl Lights {
         };
         let shown = |shown: bool, irradiance: [f64; 3]| if shown { irradiance } else { [0.0; 3] };
         let of_sun = Glare {
-            irradiance_w_m2: shown(scene.sun.disc, direct_normal(scene, stand, &night)),
+            irradiance_w_m2: shown(scene.sun.disc, direct.sun),
             diameter_deg: scene.sun.angular_diameter_deg,
-            direction: stand.sun.to_array(),
+            of_moon: false,
         };
         let of_moon = scene.moon.as_ref().zip(night.moon).map(|(moon, over)| Glare {
-            irradiance_w_m2: shown(moon.disc, moon_direct_normal(scene, stand, &night)),
+            irradiance_w_m2: shown(moon.disc, direct.moon),
             diameter_deg: over.seen.angular_diameter_deg,
-            direction: over.seen.direction,
+            of_moon: true,
         });
         let of_moon = of_moon.filter(|moon| moon.illuminance() > of_sun.illuminance());
         let moon = night.moon.map(|over| MoonParts {
@@ -107,6 +108,15 @@ impl Lights {
 }
 
 impl Glare {
+    /// Behind clouds.
+    pub(crate) fn behind(&self, left: DiscsLeft) -> Self {
+        let left = if self.of_moon { left.moon } else { left.sun };
+        Self {
+            irradiance_w_m2: self.irradiance_w_m2.map(|e| left * e),
+            ..*self
+        }
+    }
+
     /// Lux.
     fn illuminance(&self) -> f64 {
         const LUMA: [f64; 3] = [0.2126, 0.7152, 0.0722];

@@ -3,7 +3,7 @@
 use crate::{
     camera::CameraUniform,
     cloudscape::Cloudscape,
-    lights::Lights,
+    lights::{Glare, Lights},
     method::Plan,
     passes::{
         Table,
@@ -11,7 +11,7 @@ use crate::{
         sky::{CloudInputs, SkyInputs},
         stars::StarsOut,
     },
-    sunlight::DiscsLeft,
+    sunlight::Direct,
     uniforms::{Part, Standpoint},
 };
 use std::sync::Arc;
@@ -35,13 +35,14 @@ pub(crate) struct Prepared {
     pub(crate) sky_view: Option<Arc<Table>>,
     pub(crate) stars: Option<StarsOut>,
     pub(crate) clouds: Option<Cloudscape>,
-    pub(crate) disc_clouds: Option<Table>,
     pub(crate) exposure: Arc<wgpu::Buffer>,
     pub(crate) grain: u32,
     /// True for a preview whose pixels may be interpolated.
     pub(crate) by_lattices: bool,
-    /// What clouds leave of the light of sun and moon.
-    pub(crate) discs_left: DiscsLeft,
+    /// As clouds leave it.
+    pub(crate) glare: Glare,
+    /// As clouds leave it.
+    pub(crate) direct: Direct,
     /// The device that holds it.
     pub(crate) generation: u64,
 }

@@ -7,7 +7,7 @@ use crate::{
     night::Night,
     passes::probe::{CHUNK, CLOUDED_CHUNK, Seen, Sight},
     quadrature::{CLEAR, CLOUDED, Node, harmonics, sphere},
-    sunlight::{DiscsLeft, direct_normal, moon_direct_normal},
+    sunlight::{Direct, DiscsLeft},
     uniforms::Standpoint,
 };
 use glam::DVec3;
@@ -79,17 +79,16 @@ impl ProbeJob {
         }
         let scene = &self.order.request.scene;
         let night = Night::new(scene, &self.stand);
-        let direct_normal_w_m2 = direct_normal(scene, &self.stand, &night).map(|e| left.sun * e);
+        let direct = Direct::new(scene, &self.stand, &night).behind(left);
         let falling = self.stand.up.dot(self.stand.sun).max(0.0);
         ProbeAnswer {
             radiance_w_m2_sr: asked.iter().map(|s| s.radiance).collect(),
             transmittance: asked.iter().map(|s| s.transmittance).collect(),
             distance_m: asked.iter().map(|s| s.distance_m).collect(),
             irradiance: Irradiance {
-                direct_w_m2: direct_normal_w_m2.map(|e| e * falling),
-                direct_normal_w_m2,
-                moon_direct_normal_w_m2: moon_direct_normal(scene, &self.stand, &night)
-                    .map(|e| left.moon * e),
+                direct_w_m2: direct.sun.map(|e| e * falling),
+                direct_normal_w_m2: direct.sun,
+                moon_direct_normal_w_m2: direct.moon,
                 diffuse_w_m2,
                 sh9,
             },

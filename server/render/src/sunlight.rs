@@ -25,6 +25,30 @@ impl Default for DiscsLeft {
     }
 }
 
+/// Light that reaches the observer straight from sun and moon, on planes that face them, in R, G and B, W/m².
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Direct {
+    pub(crate) sun: [f64; 3],
+    pub(crate) moon: [f64; 3],
+}
+
+impl Direct {
+    pub(crate) fn new(scene: &Scene, stand: &Standpoint, night: &Night) -> Self {
+        Self {
+            sun: direct_normal(scene, stand, night),
+            moon: moon_direct_normal(scene, stand, night),
+        }
+    }
+
+    /// Behind clouds.
+    pub(crate) fn behind(&self, left: DiscsLeft) -> Self {
+        Self {
+            sun: self.sun.map(|e| left.sun * e),
+            moon: self.moon.map(|e| left.moon * e),
+        }
+    }
+}
+
 /// Directions evenly across what the ground does not hide of a disc, on Vogel's spiral (1979); `stand` has the disc in
 /// the sun's place. As everywhere here, the disc is taken as even.
 pub(crate) fn across_disc(stand: &Standpoint, radius_m: f64, diameter_deg: f64) -> Vec<DVec3> {
@@ -43,13 +67,13 @@ pub(crate) fn across_disc(stand: &Standpoint, radius_m: f64, diameter_deg: f64) 
 /// Irradiance from the disc on a plane that faces it, in R, G and B, W/m²: what the air and the horizon leave of it.
 /// The disc is taken as even; strips at heights cos φ have areas in proportion to sin²φ dφ.
 /// A moon before the sun takes its share.
-pub(crate) fn direct_normal(scene: &Scene, stand: &Standpoint, night: &Night) -> [f64; 3] {
+fn direct_normal(scene: &Scene, stand: &Standpoint, night: &Night) -> [f64; 3] {
     let left = disc_left(scene, stand, scene.sun.angular_diameter_deg);
     [0, 1, 2].map(|i| scene.sun.irradiance_w_m2[i] * night.uncovered.disc * left[i])
 }
 
 /// The same of the moon; zero where there is none.
-pub(crate) fn moon_direct_normal(scene: &Scene, stand: &Standpoint, night: &Night) -> [f64; 3] {
+fn moon_direct_normal(scene: &Scene, stand: &Standpoint, night: &Night) -> [f64; 3] {
     night.moon.map_or([0.0; 3], |moon| {
         let left = disc_left(scene, &moon.stand(stand), moon.seen.angular_diameter_deg);
         [0, 1, 2].map(|i| moon.light.irradiance_w_m2[i] * left[i])

@@ -9,7 +9,7 @@ use crate::{
     lights::Lights,
     night::Night,
     passes::probe::{ProbeInputs, Seen, Sight},
-    sunlight::DiscsLeft,
+    sunlight::{Direct, DiscsLeft},
 };
 use welkin_scene::{Quality, Scene, assets::SceneAssets};
 
@@ -34,7 +34,8 @@ impl Engine {
             let night = Night::new(scene, &tables.stand);
             let glow = airglow(&mut self.night_light, scene, &tables);
             let face = || moon_face(&self.moon_face, gpu);
-            let lights = Lights::new(scene, &tables.stand, night, glow, face, None);
+            let direct = Direct::new(scene, &tables.stand, &night);
+            let lights = Lights::new(scene, &tables.stand, night, &direct, glow, face, None);
             let clouds = cloud_sky.zip(textures).map(|(sky, textures)| {
                 let light = CloudLight::new(&tables.stand, &night, &lights);
                 self.clouds

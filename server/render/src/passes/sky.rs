@@ -6,7 +6,6 @@ use super::{
     tone::{ToneInputs, curve_code},
 };
 use crate::{
-    camera::{CameraUniform, projection_code},
     cloudscape::Cloudscape,
     frame_job::RUN,
     gpu::Gpu,
@@ -21,7 +20,7 @@ use crate::{
     },
 };
 use glam::UVec2;
-use welkin_scene::{Camera, Direction, Method, Projection};
+use welkin_scene::Method;
 
 /// Where the pass writes.
 pub(crate) enum SkyTo<'a> {
@@ -100,31 +99,6 @@ impl SkyInputs<'_> {
 }
 
 impl Sky {
-    /// The clouds before a disc: a table of 2 × 2 rays.
-    pub(crate) fn clouds_before_disc(
-        &mut self,
-        recorder: &mut Recorder<'_>,
-        scape: &Cloudscape,
-        towards: [f64; 3],
-        diameter_deg: f64,
-    ) -> Table {
-        let camera = Camera {
-            direction: Direction::Vector(towards),
-            projection: Projection::Perspective {
-                vertical_fov_deg: diameter_deg.clamp(0.1, 10.0),
-            },
-            ..Camera::default()
-        };
-        let size_px = UVec2::splat(2);
-        let tile = TileUniform {
-            origin_px: UVec2::ZERO,
-            size_px,
-        };
-        let projection = projection_code(&camera.projection);
-        let camera = Part::new(&CameraUniform::new(&camera, size_px));
-        self.clouds.run(recorder, scape, (&camera, projection), tile, 1)
-    }
-
     pub(crate) fn new() -> Self {
         Self {
             kernels: Variants::new(&shader::SKY),
@@ -183,7 +157,6 @@ impl Sky {
         let moon_sky_view = inputs.moon.and_then(|m| m.sky_view);
         let face = inputs.moon.map_or(&inputs.transmittance.view, |m| m.face);
         let airglow = inputs.airglow.upload(gpu, "airglow");
-        let disc = tone.and_then(|tone| tone.disc_clouds);
         let places = |grain: UVec2| place_count(tile, grain);
         let count = |grain: UVec2| u64::from(places(grain).x) * u64::from(places(grain).y);
         let preview = matches!(to, SkyTo::Preview(..));
@@ -227,7 +200,6 @@ impl Sky {
                     .map_or(&inputs.source.view, |c| &c.scape.shadow.view),
             ),
             Bind::Buffer(&cloud_frame),
-            Bind::Table(disc.map_or(&inputs.transmittance.view, |table| &table.view)),
         ];
         let flag = |on: bool| f64::from(u8::from(on));
         let mut constants = vec![

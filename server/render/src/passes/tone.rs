@@ -1,6 +1,5 @@
 //! From radiance to the picture.
 
-use super::Table;
 use crate::{
     kernel::{Bind, Recorder, Variants},
     shader,
@@ -14,10 +13,6 @@ pub(crate) struct ToneInputs<'a> {
     pub(crate) curve: ToneCurve,
     pub(crate) settings: &'a ToneUniform,
     pub(crate) exposure: &'a wgpu::Buffer,
-    /// What clouds let through of the disc that glares, in alpha.
-    pub(crate) disc_clouds: Option<&'a Table>,
-    /// Anything, where there are none.
-    pub(crate) any_table: &'a Table,
 }
 
 pub(crate) struct Tone {
@@ -40,8 +35,7 @@ impl Tone {
         radiance: &wgpu::Buffer,
         picture: &wgpu::Buffer,
     ) {
-        let clouds = f64::from(u8::from(inputs.disc_clouds.is_some()));
-        let constants = [("CURVE", curve_code(inputs.curve)), ("CLOUDS", clouds)];
+        let constants = [("CURVE", curve_code(inputs.curve))];
         let kernel = self.kernels.get(recorder.gpu, &constants);
         let uniform = Part::new(inputs.settings).upload(recorder.gpu, "tone");
         let binds = [
@@ -49,8 +43,6 @@ impl Tone {
             Bind::Buffer(inputs.exposure),
             Bind::Buffer(radiance),
             Bind::Buffer(picture),
-            Bind::Table(&inputs.disc_clouds.unwrap_or(inputs.any_table).view),
-            Bind::LinearClamp,
         ];
         let size = inputs.settings.size_px;
         recorder.dispatch(kernel, &binds, [size.x, size.y, 1]);
