@@ -29,9 +29,11 @@ fn is_even_run(mu_first: f32, mu_last: f32, length: f32) -> bool {
 }
 
 // A cell of a preview's lattice is even where linear interpolation between its corners stays within a step of 8-bit
-// colour. Over the horizon by an angle θ the light runs as a function of √θ: over a cell of height h the error is h²/32 θ^-3/2
-// of its slope by √θ, and falls with h/θ.
+// colour, at dusk's horizon two. Over the horizon by an angle θ the light runs as a function of √θ: over a cell of height h the
+// error is its slope by √θ times h²/32 θ^-3/2. So a cell keeps away from the horizon by its own height.
 const CELL_SHARE = 1.0;
+// And wherever it lies it spans no more than this of EVEN_ANGLE.
+const CELL_ANGLES = 4.0;
 // The lens' veil runs as 1/θ² about its source: its error is 3/4 (h/θ)² of itself.
 const VEIL_CELLS = 6.0;
 // As many radii of the sun its corona reaches in an eclipse.
@@ -59,7 +61,7 @@ fn cell_evenness(place: vec2f, size: vec2f, veil: bool, glaring: vec3f) -> f32 {
     let most = max(max(mu.x, mu.y), max(mu.z, mu.w));
     let horizon_mu = cos(edge_zenith_angle(air.radius_m, view.altitude_m));
     let near = select(least - horizon_mu, horizon_mu - most, most < horizon_mu);
-    var runs = near > 2.0 * camera.pixel_angle && most - least < CELL_SHARE * near && across < 4.0 * EVEN_ANGLE;
+    var runs = near > 2.0 * camera.pixel_angle && most - least < CELL_SHARE * near && across < CELL_ANGLES * EVEN_ANGLE;
     // Seen from above, the air over the limb does not run evenly, and space over it does.
     runs &= most < horizon_mu || view.altitude_m < 0.2 * air.top_m;
     runs |= view.altitude_m > air.top_m && least > cos(least_zenith_angle(air.radius_m, air.top_m, view.altitude_m));

@@ -3,6 +3,8 @@
 #![allow(clippy::unwrap_used, reason = "tests fail by panicking")]
 
 use super::*;
+
+mod lattices;
 use crate::tests::engine;
 use welkin_scene::{Direction, Exposure, Projection, Quality, Scene, renderer::Priority, sun::SunPosition};
 
@@ -166,7 +168,8 @@ fn the_budget_follows_the_device() {
 #[test]
 fn both_ways_to_the_picture_are_one() {
     let mut engine = engine();
-    let order = order(Scene::default(), 256, 144, Output::Display);
+    let mut order = order(Scene::default(), 256, 144, Output::Display);
+    order.quality = Quality::Final;
     let (at_once, _) = in_tiles(&mut engine, &order, 1 << 18);
     let (by_radiance, _) = in_tiles(&mut engine, &order, 1 << 18);
     assert!(!passes(&at_once).contains(&"tone") && passes(&by_radiance).contains(&"tone"));
@@ -178,7 +181,8 @@ fn both_ways_to_the_picture_are_one() {
 fn a_change_runs_only_the_passes_that_see_it() {
     let mut engine = engine();
     let mut run = |scene: &Scene| {
-        let order = order(scene.clone(), 64, 40, Output::Display);
+        let mut order = order(scene.clone(), 64, 40, Output::Display);
+        order.quality = Quality::Final;
         passes(&in_tiles(&mut engine, &order, 1 << 18).0)
     };
     // A sky that no other test renders.
@@ -219,4 +223,28 @@ fn a_change_runs_only_the_passes_that_see_it() {
         ["transmittance", "multi_scattering", "sky_view", "sky"],
         "another ground"
     );
+}
+
+/// A preview's picture by lattices costs less than toning its radiance would: nothing is kept of it, so that the same
+/// order always gives the same bytes.
+#[test]
+fn a_preview_runs_no_tone_pass() {
+    let mut engine = engine();
+    let mut scene = Scene::default();
+    scene.planet.radius_m = 6_361_235.0;
+    let first = in_tiles(
+        &mut engine,
+        &order(scene.clone(), 64, 40, Output::Display),
+        1 << 18,
+    )
+    .0;
+    for output in [Output::Display, Output::Linear, Output::Display] {
+        let (frame, _) = in_tiles(&mut engine, &order(scene.clone(), 64, 40, output), 1 << 18);
+        assert!(
+            !passes(&frame).contains(&"tone"),
+            "{output:?}: {:?}",
+            passes(&frame)
+        );
+        assert_eq!(frame.pixels == first.pixels, output == Output::Display);
+    }
 }
