@@ -1,19 +1,19 @@
 // For each band and sheet of clouds the optical depth towards the light, by where the way to it crosses their middle.
 import package::lib::cloud::{band_extinction, clouds, sheet_optical_depth};
-import package::lib::cloud_shade::{CloudShade, shade_place};
-import package::lib::geometry::{altitude_after, shell_stretch};
+import package::lib::cloud_shade::{CloudShade, LOWER_SHARES, UPPER_SHARES, depth_to_map, light_cosine, shade_place};
 
 struct Shadow {
     light: vec3f,
-    steps: u32,
+    // No step is longer, but for the thickest bands.
+    step_m: f32,
 }
 
 @group(0) @binding(8) var<uniform> shade: CloudShade;
 @group(0) @binding(9) var<uniform> shadow: Shadow;
 @group(0) @binding(10) var maps: texture_storage_2d_array<rgba32float, write>;
 
-// The ray may be no lower than this: beyond, it goes through the layer for ever.
-const LEAST_COSINE = 0.03;
+// From one height to the next.
+const MOST_STEPS = 8.0;
 
 // The place on a sphere of altitude h, that way from the origin along the sphere.
 fn place_on(along_m: vec2f, altitude_m: f32) -> vec3f {
@@ -29,27 +29,39 @@ fn place_on(along_m: vec2f, altitude_m: f32) -> vec3f {
 @compute @workgroup_size(8, 8)
 fn cloud_shadow(@builtin(global_invocation_id) id: vec3u) {
     let size = textureDimensions(maps);
-    if any(id.xy >= size) || id.z >= shade.count {
+    if any(id.xy >= size) || id.z >= clouds.band_count + clouds.sheet_count {
         return;
     }
     let along_m = shade_place(shade, (vec2f(id.xy) + 0.5) / vec2f(size));
     let middle_m = shade.middles_m[id.z / 4u][id.z % 4u];
     let p = place_on(along_m, middle_m);
     let up = normalize(p + vec3f(0.0, 0.0, clouds.radius_m));
-    let mu = max(abs(dot(up, shadow.light)), LEAST_COSINE);
-    var depth = 0.0;
+    let mu = light_cosine(dot(up, shadow.light));
+    var upper = vec4f(0.0);
+    var lower = vec4f(0.0);
     // The bands stand first.
     if id.z >= clouds.band_count {
-        depth = sheet_optical_depth(clouds.sheets[id.z - clouds.band_count], p, middle_m) / mu;
+        upper = vec4f(sheet_optical_depth(clouds.sheets[id.z - clouds.band_count], p, middle_m) / abs(mu));
+        lower = upper;
     } else {
         let band = clouds.bands[id.z];
-        let half_m = 0.5 * (band.top_m - band.base_m) / mu;
-        for (var k = 0u; k < shadow.steps; k++) {
-            let t = (2.0 * (f32(k) + 0.5) / f32(shadow.steps) - 1.0) * half_m;
-            let at = p + t * shadow.light;
-            let h = middle_m + t * mu;
-            depth += band_extinction(band, at, h, false, 0.0).value * 2.0 * half_m / f32(shadow.steps);
+        var h = band.top_m;
+        var depth = 0.0;
+        for (var k = 0u; k < 8u; k++) {
+            let share = dot(select(vec4f(0.0), UPPER_SHARES, vec4u(0u, 1u, 2u, 3u) == vec4u(k)) + select(vec4f(0.0), LOWER_SHARES, vec4u(4u, 5u, 6u, 7u) == vec4u(k)), vec4f(1.0));
+            let below_m = mix(band.top_m, band.base_m, share);
+            let steps = clamp(ceil((h - below_m) / shadow.step_m), 1.0, MOST_STEPS);
+            let step_m = (h - below_m) / steps;
+            for (var i = 0.5; i < steps; i += 1.0) {
+                let at_m = h - i * step_m;
+                let at = p + (at_m - middle_m) / mu * shadow.light;
+                depth += band_extinction(band, at, at_m, false, 0.0).value * step_m / abs(mu);
+            }
+            h = below_m;
+            upper = select(upper, vec4f(depth), vec4u(0u, 1u, 2u, 3u) == vec4u(k));
+            lower = select(lower, vec4f(depth), vec4u(4u, 5u, 6u, 7u) == vec4u(k));
         }
     }
-    textureStore(maps, id.xy, id.z, vec4f(depth, 0.0, 0.0, 0.0));
+    textureStore(maps, id.xy, 2u * id.z, depth_to_map(upper));
+    textureStore(maps, id.xy, 2u * id.z + 1u, depth_to_map(lower));
 }

@@ -23,7 +23,6 @@ struct CloudBand {
     count: u32,
     // Of the thinnest layer.
     thickness_m: f32,
-    extinction_per_m: f32,
 }
 
 // A layer that is thin against all distances.
@@ -143,25 +142,28 @@ fn weather_of(source: WeatherSource, map: texture_2d<f32>, along_m: vec2f) -> We
         return Weather(first.r, 0.5 + 0.5 * first.a, 0.0, max(first.b, 0.05), first.g, 0.0);
     }
     var seen = first.rgb;
-    if source.twice > 0.0 {
+    // Loops of one round at most, here and below: a software device runs what an `if` leaves out.
+    for (var twice = source.twice > 0.0; twice; twice = false) {
         let second = textureSampleLevel(map, linear_repeat, SECOND_LOOK * at - source.second_drift, 0.0).rgb;
         seen = share_below(first.rgb + SECOND_WEIGHT * second);
         // Far from the scene, where only a flight or an orbit leads, weather systems gather what is even about it.
         let far = smoothstep(1e5, 6e5, length(along_m));
-        let system = textureSampleLevel(map, linear_repeat, SYSTEMS * at, 0.0).rgb;
-        seen = mix(seen, share_below(system + SECOND_WEIGHT * seen), far);
+        for (var there = far > 0.0; there; there = false) {
+            let system = textureSampleLevel(map, linear_repeat, SYSTEMS * at, 0.0).rgb;
+            seen = mix(seen, share_below(system + SECOND_WEIGHT * seen), far);
+        }
     }
     return Weather(seen.r, seen.g, seen.b, 1.0, 0.0, 1.0);
 }
 
 fn weather_at(along_m: vec2f) -> Weather {
-    let a = weather_of(clouds.weather[0], first_weather, along_m);
-    if clouds.weather_share <= 0.0 {
-        return a;
-    }
-    let b = weather_of(clouds.weather[1], second_weather, along_m);
+    var a = weather_of(clouds.weather[0], first_weather, along_m);
     let s = clouds.weather_share;
-    return Weather(mix(a.coverage, b.coverage, s), mix(a.cloud_type, b.cloud_type, s), mix(a.rain, b.rain, s), mix(a.height, b.height, s), mix(a.high, b.high, s), mix(a.spread, b.spread, s));
+    for (var both = s > 0.0; both; both = false) {
+        let b = weather_of(clouds.weather[1], second_weather, along_m);
+        a = Weather(mix(a.coverage, b.coverage, s), mix(a.cloud_type, b.cloud_type, s), mix(a.rain, b.rain, s), mix(a.height, b.height, s), mix(a.high, b.high, s), mix(a.spread, b.spread, s));
+    }
+    return a;
 }
 
 // Trapezium with smooth sides: rises from x to y, falls from z to w.
@@ -227,7 +229,6 @@ fn layer_density(layer: CloudLayer, weather: Weather, along_m: vec2f, altitude_m
     let wanted = profile(layer, weather, strength, clamp(h, 0.0, 1.0));
     var density = 0.0;
     var bulk = 0.0;
-    // A loop of one round at most: a software device runs what an `if` leaves out.
     for (var there = h > 0.0 && h < 1.0 && strength * wanted > 0.0; there; there = false) {
         let place = vec3f(along_m + clouds.shear_m * h, altitude_m);
         let noise = textureSampleLevel(shape_volume, linear_repeat, place * clouds.base_inverse_scale_per_m - clouds.base_drift, 0.0);

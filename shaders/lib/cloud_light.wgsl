@@ -17,36 +17,74 @@ fn cloud_phase(nu: f32) -> f32 {
     return mix(henyey_greenstein(nu, clouds.forward), draine(nu, clouds.other, clouds.alpha), clouds.other_share);
 }
 
+// What light that has been scattered by small angles once, twice, ... eight times looks like in one direction, 1/sr. Henyey
+// and Greenstein's function convolved n times with itself is that of g^{n+1}; orders beyond those asked for are none.
+struct Lobes {
+    first: vec4f,
+    second: vec4f,
+    // As many ones as there are orders.
+    first_counts: vec4f,
+    second_counts: vec4f,
+    // Cosine of the angle with the light's way.
+    nu: f32,
+}
+
+fn forward_lobes(nu: f32) -> Lobes {
+    let orders = vec4f(f32(clouds.octaves));
+    var lobes: Lobes;
+    lobes.nu = nu;
+    lobes.first_counts = select(vec4f(0.0), vec4f(1.0), vec4f(0.0, 1.0, 2.0, 3.0) < orders);
+    lobes.second_counts = select(vec4f(0.0), vec4f(1.0), vec4f(4.0, 5.0, 6.0, 7.0) < orders);
+    let f = clouds.forward;
+    let f2 = f * f;
+    let f4 = f2 * f2;
+    let first = vec4f(f, f2, f2 * f, f4);
+    lobes.first = lobes.first_counts * mix(henyey_greenstein_4(nu, first), vec4f(1.0 / (4.0 * PI)), clouds.other_share);
+    lobes.second = lobes.second_counts * mix(henyey_greenstein_4(nu, f4 * first), vec4f(1.0 / (4.0 * PI)), clouds.other_share);
+    lobes.first.x = cloud_phase(nu);
+    return lobes;
+}
+
+fn henyey_greenstein_4(nu: f32, g: vec4f) -> vec4f {
+    let base = max((1.0 - g) * (1.0 - g) + 2.0 * g * (1.0 - nu), vec4f(1e-8));
+    return (1.0 - g * g) / (4.0 * PI * base * sqrt(base));
+}
+
+// Σ cₙ xⁿ/n! of eight coefficients.
+fn exponential_sum(x: f32, first: vec4f, second: vec4f) -> f32 {
+    var sum = second.z + x / 7.0 * second.w;
+    sum = second.y + x / 6.0 * sum;
+    sum = second.x + x / 5.0 * sum;
+    sum = first.w + x / 4.0 * sum;
+    sum = first.z + x / 3.0 * sum;
+    sum = first.y + x / 2.0 * sum;
+    return first.x + x * sum;
+}
+
 // Light of a far source of unit irradiance on a cloud, as the source function per unit albedo, 1/sr. `before` is the
 // optical depth towards the source, `behind` that away from it.
 //
 // Photons that were scattered n times by small angles have gone e^{-τ} (gτ)^n / n! of the way's share: their sum is
-// e^{-(1-g)τ}, light that similarity counts as unscattered. Henyey and Greenstein's function convolved n times with itself
-// is that of g^{n+1}: this is the silver lining, wider and fainter the deeper it comes from. The rest is diffuse:
-// in the diffusion limit, with Eddington's closure and Marshak's boundaries, a slab of depth T = (1-g)(before + behind)
-// without absorption holds U(τ) = C₀ - 3 C₁ τ - 3 E e^{-τ}, C₁ = E (5 - e^{-T})/(4 + 3T), C₀ = 5E - 2C₁.
-fn lit_source(nu: f32, before: f32, behind: f32) -> vec3f {
+// e^{-(1-g)τ}, light that similarity counts as unscattered, and their lobes are the silver lining, wider and fainter the
+// deeper it comes from. The rest is diffuse: in the diffusion limit, with Eddington's closure and Marshak's boundaries, a
+// slab of depth T = (1-g)(before + behind) without absorption holds U(τ) = C₀ - 3 C₁ τ - 3 E e^{-τ},
+// C₁ = E (5 - e^{-T})/(4 + 3T), C₀ = 5E - 2C₁.
+fn lit_source(lobes: Lobes, before: f32, behind: f32) -> vec3f {
     let g = clouds.asymmetry;
-    let a = clouds.albedo.g;
-    var sum = cloud_phase(nu) * exp(-before);
-    var weight = exp(-before);
-    var lobe = clouds.forward;
-    var passed = weight;
-    for (var n = 1u; n < clouds.octaves; n++) {
-        weight *= g * before * a / f32(n);
-        lobe *= clouds.forward;
-        passed += weight;
-        sum += weight * mix(henyey_greenstein(nu, lobe), 1.0 / (4.0 * PI), clouds.other_share);
-    }
+    let x = g * before * clouds.albedo.g;
+    let straight = exp(-before);
+    var sum = straight * exponential_sum(x, lobes.first, lobes.second);
+    let passed = straight * exponential_sum(x, lobes.first_counts, lobes.second_counts);
     let near = (1.0 - g) * before;
     let whole = near + (1.0 - g) * behind;
-    // Of the forward light, what the loop left out is even.
-    sum += max(exp(-near) - passed, 0.0) / (4.0 * PI);
+    let forward = exp(-near);
+    // Of the forward light, what the lobes left out is even.
+    sum += max(forward - passed, 0.0) / (4.0 * PI);
     let c1 = (5.0 - exp(-whole)) / (4.0 + 3.0 * whole);
-    let diffuse = max(5.0 - 2.0 * c1 - 3.0 * c1 * near - 3.0 * exp(-near), 0.0);
+    let diffuse = max(5.0 - 2.0 * c1 - 3.0 * c1 * near - 3.0 * forward, 0.0);
     // Powder: at a sunlit rim there is little behind that could send light back (Schneider 2015). The slab knows that;
     // the control takes more.
-    let powder = 1.0 - 0.5 * clouds.powder * exp(-before) * (0.5 - 0.5 * nu);
+    let powder = 1.0 - 0.5 * clouds.powder * straight * (0.5 - 0.5 * lobes.nu);
     return vec3f(sum) + powder * absorbed(whole) * diffuse / (4.0 * PI);
 }
 

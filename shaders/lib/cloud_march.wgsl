@@ -2,8 +2,8 @@
 import package::lib::aerial::aerial_to;
 import package::lib::air::Air;
 import package::lib::cloud::{CloudBand, band_extinction, clouds, sheet_optical_depth};
-import package::lib::cloud_light::{ambient_source, cloud_phase, lit_source};
-import package::lib::cloud_shade::{CloudShade, shade_depth};
+import package::lib::cloud_light::{Lobes, ambient_source, lit_source};
+import package::lib::cloud_shade::{CloudShade, LightDepth, light_depth_within, shade_depth};
 import package::lib::geometry::{PI, altitude_after, cosine_after, distance_to_sphere, distance_to_top, shell_stretch};
 import package::lib::light::{View, scattered_radiance};
 import package::lib::scattering::Scattered;
@@ -43,8 +43,7 @@ struct CloudRay {
     air_length_m: f32,
     // Even over 0 to 1, from pixel to pixel.
     jitter: f32,
-    // Angle of a pixel.
-    pixel_angle: f32,
+    lobes: Lobes,
 }
 
 // Nothing is seen through what lets less through.
@@ -55,11 +54,9 @@ const MOST_STEPS = 1400u;
 const EMPTY = 4u;
 const WIDE = 3.0;
 // Within a cloud's bulk, where the detail noise has its edges, they are closer.
-const CLOSER = 2.5;
-// Optical depth after which the light is found anew.
-const AGAIN = 0.15;
-// And after so many steps, however thin.
-const MOST_CELLS = 8.0;
+const CLOSER = 1.5;
+// The light is found once for so many steps.
+const RESTS = 4.0;
 // Over which way clouds fade, where they are asked to.
 const HAZE_M = 3e4;
 // A ray through more air than this sees none of the clouds beyond.
@@ -85,60 +82,82 @@ fn air_before(ray: CloudRay, t: f32) -> AirBefore {
     return AirBefore(all - multiple, multiple, exp(-light.optical_depth));
 }
 
-// Optical depth of a band from a place on towards a direction and no farther than its edge; steps grow with the square.
+// Optical depth of a band from a place on, that way; steps grow with the square.
 fn depth_within(band: CloudBand, p: vec3f, altitude_m: f32, towards: vec3f, mu: f32, steps: u32, most_m: f32) -> f32 {
-    var way_m = most_m;
-    if mu > 0.0 {
-        way_m = min(way_m, distance_to_top(clouds.radius_m, band.top_m, altitude_m, mu));
-    } else {
-        let down = distance_to_sphere(clouds.radius_m + band.base_m, altitude_m - band.base_m, mu);
-        way_m = min(way_m, select(most_m, down, down >= 0.0));
-    }
     var sum = 0.0;
-    for (var k = 0u; k < steps; k++) {
-        let near = f32(k) / f32(steps);
-        let far = f32(k + 1u) / f32(steps);
-        let t = way_m * 0.5 * (near * near + far * far);
+    var near_m = 0.0;
+    for (var k = 1u; k <= steps; k++) {
+        let far = f32(k) / f32(steps);
+        let far_m = most_m * far * far;
+        let t = 0.5 * (near_m + far_m);
         let h = altitude_after(clouds.radius_m, altitude_m, mu, t);
-        sum += band_extinction(band, p + t * towards, h, false, 0.0).value * way_m * (far * far - near * near);
+        sum += band_extinction(band, p + t * towards, h, false, 0.0).value * (far_m - near_m);
+        near_m = far_m;
     }
     return sum;
 }
 
-// Light of the whole sky on a level place, over the air below it; and of the ground and the air beneath.
+// Light about a place of a cloud, W/m².
 struct Surroundings {
+    // Of the sun, through the air alone.
+    sun: vec3f,
+    // Of the whole sky on a level place, over the air below it; and of the ground and the air beneath.
     above: vec3f,
     below: vec3f,
+    // The light's cosine with the zenith.
+    mu_s: f32,
 }
 
 const AIR_SCALE_M = 8500.0;
 
-fn surroundings(altitude_m: f32, mu_s: f32) -> Surroundings {
+fn surroundings(p: vec3f, altitude_m: f32) -> Surroundings {
+    let mu_s = dot(normalize(p + vec3f(0.0, 0.0, clouds.radius_m)), view.sun);
     let x = unit_to_coordinate(sun_cosine_unit(mu_s), textureDimensions(irradiance_table).x);
     let sky = light_from_table(textureSampleLevel(irradiance_table, linear_clamp, vec2f(x, 0.5), 0.0).rgb);
-    let sun = max(mu_s, 0.0) * transmittance_to_space(air, transmittance_table, linear_clamp, 0.0, mu_s);
+    let on_ground = max(mu_s, 0.0) * transmittance_to_space(air, transmittance_table, linear_clamp, 0.0, mu_s);
+    let here = transmittance_to_space(air, transmittance_table, linear_clamp, altitude_m, mu_s);
     let above = exp(-altitude_m / AIR_SCALE_M);
-    let ground = air.ground_albedo * (shade.diffuse_left * (sun + sky));
-    return Surroundings(view.sun_irradiance * sky * above, view.sun_irradiance * (ground + sky * (1.0 - above)));
+    let ground = air.ground_albedo * (shade.diffuse_left * (on_ground + sky));
+    let even = clouds.ambient_factor * view.sun_irradiance;
+    let sun = clouds.sun_factor * clouds.sun_colour * view.sun_irradiance * here;
+    return Surroundings(sun, even * sky * above, even * (ground + sky * (1.0 - above)), mu_s);
 }
 
-// Source function of a place in a band, W/m²/sr.
-fn source_at(band: CloudBand, p: vec3f, altitude_m: f32, extinction_per_m: f32, nu: f32) -> vec3f {
-    let mu_s = dot(normalize(p + vec3f(0.0, 0.0, clouds.radius_m)), view.sun);
+fn mixed(a: Surroundings, b: Surroundings, s: f32) -> Surroundings {
+    return Surroundings(mix(a.sun, b.sun, s), mix(a.above, b.above, s), mix(a.below, b.below, s), mix(a.mu_s, b.mu_s, s));
+}
+
+// With so many steps the light's way is followed to its ends on both sides.
+const ALL_LIGHT_STEPS = 64u;
+
+// Source function of a place in a band, W/m²/sr. Close to it the light's way is followed, the farther the more steps are
+// asked for; beyond, its optical depth stands in the maps of shadows.
+fn source_at(index: u32, p: vec3f, altitude_m: f32, extinction_per_m: f32, around: Surroundings, lobes: Lobes) -> vec3f {
+    let band = clouds.bands[index];
+    let mu_s = around.mu_s;
     let thickness = band.top_m - band.base_m;
-    let reach_m = min(thickness / max(abs(mu_s), 0.05), 12.0 * thickness);
-    let before = depth_within(band, p, altitude_m, view.sun, mu_s, clouds.light_steps, reach_m);
-    let behind = depth_within(band, p, altitude_m, -view.sun, -mu_s, max(clouds.light_steps / 2u, 2u), reach_m);
-    let over = shade_depth(shade, shade_maps, linear_clamp, clouds.radius_m, p, max(altitude_m, band.top_m), view.sun, mu_s);
-    let sun = view.sun_irradiance * transmittance_to_space(air, transmittance_table, linear_clamp, altitude_m, mu_s);
+    var way = light_depth(index, band, p, altitude_m, mu_s);
+    for (var close = clouds.light_steps > 0u; close; close = false) {
+        let reach_m = f32(clouds.light_steps) / f32(ALL_LIGHT_STEPS) * min(thickness / max(abs(mu_s), 0.05), 12.0 * thickness);
+        let altitude_there_m = altitude_after(clouds.radius_m, altitude_m, mu_s, reach_m);
+        let there = light_depth(index, band, p + reach_m * view.sun, altitude_there_m, mu_s);
+        let inside = altitude_there_m > band.base_m && altitude_there_m < band.top_m;
+        way.before = depth_within(band, p, altitude_m, view.sun, mu_s, clouds.light_steps, reach_m) + select(0.0, there.before, inside);
+        for (var exact = clouds.light_steps >= ALL_LIGHT_STEPS; exact; exact = false) {
+            way.behind = depth_within(band, p, altitude_m, -view.sun, -mu_s, clouds.light_steps, reach_m);
+        }
+    }
+    let over = shade_depth(shade, shade_maps, linear_clamp, clouds.radius_m, p, band.top_m, view.sun, mu_s);
     let h = clamp((altitude_m - band.base_m) / thickness, 0.0, 1.0);
     // Even light comes by the shortest way out, not straight up: a share of the thickness on either side.
     let up = 0.5 * extinction_per_m * (1.0 - h) * thickness;
     let down = 0.5 * extinction_per_m * h * thickness;
-    let around = surroundings(altitude_m, mu_s);
-    let direct = clouds.sun_factor * clouds.sun_colour * sun * exp(-over) * lit_source(nu, before, behind);
-    let even = clouds.ambient_factor * (around.above * ambient_source(up, down) + around.below * ambient_source(down, up));
-    return clouds.albedo * (direct + even);
+    let direct = around.sun * exp(-over) * lit_source(lobes, way.before, way.behind);
+    return clouds.albedo * (direct + around.above * ambient_source(up, down) + around.below * ambient_source(down, up));
+}
+
+fn light_depth(index: u32, band: CloudBand, p: vec3f, altitude_m: f32, mu_s: f32) -> LightDepth {
+    return light_depth_within(shade, shade_maps, linear_clamp, index, band.base_m, band.top_m, clouds.radius_m, p, altitude_m, view.sun, mu_s);
 }
 
 struct BandSeen {
@@ -148,9 +167,9 @@ struct BandSeen {
     distance_m: f32,
 }
 
-fn march_band(band: CloudBand, ray: CloudRay, start_m: f32, stop_m: f32, left_before: f32) -> BandSeen {
+fn march_band(index: u32, ray: CloudRay, start_m: f32, stop_m: f32, left_before: f32) -> BandSeen {
+    let band = clouds.bands[index];
     var seen = BandSeen(vec3f(0.0), 1.0, 0.0);
-    var weight = 0.0;
     let least_m = band.thickness_m / (128.0 * clouds.fineness);
     let growth = 0.5 * 0.0125 / clouds.fineness;
     // Each step is a cell, looked at somewhere in it; the last one ends where the band does.
@@ -158,26 +177,42 @@ fn march_band(band: CloudBand, ray: CloudRay, start_m: f32, stop_m: f32, left_be
     var empty = 0u;
     var within = false;
     var until_m = 0.0;
-    var source = vec3f(0.0);
-    // Of what is seen, the share since the light was found last.
-    var pending = 0.0;
-    let again = AGAIN / clouds.fineness;
-    var since = again;
+    // What lights the clouds changes slowly: it is found where they begin and where the band ends.
+    var first: Surroundings;
+    var last: Surroundings;
+    var first_m = -1.0;
+    // Of what is seen, what no light has been found for yet: the share, where it stands and its extinction by that share.
+    var pending = vec3f(0.0);
+    let rests = u32(max(RESTS / clouds.fineness, 1.0));
     let most = u32(f32(MOST_STEPS) * max(clouds.fineness, 0.25));
-    for (var k = 0u; k < most && t < stop_m && seen.left * left_before > OPAQUE; k++) {
+    for (var k = 0u; k < most; k++) {
+        let ends = t >= stop_m || seen.left * left_before <= OPAQUE || k + 1u == most;
+        // One place for the mean of some steps, and the same steps for all neighbours: devices run them in step.
+        for (var lit = pending.x > 0.0 && (ends || k % rests == 0u); lit; lit = false) {
+            let at = pending.y / pending.x;
+            let p = place_at(at, ray.direction);
+            let h = altitude_after(clouds.radius_m, view.altitude_m, ray.mu, at);
+            for (var begins = first_m < 0.0; begins; begins = false) {
+                first_m = at;
+                first = surroundings(p, h);
+                last = surroundings(place_at(stop_m, ray.direction), altitude_after(clouds.radius_m, view.altitude_m, ray.mu, stop_m));
+            }
+            let around = mixed(first, last, clamp((at - first_m) / max(stop_m - first_m, 1.0), 0.0, 1.0));
+            seen.light += pending.x * source_at(index, p, h, pending.z / pending.x, around, ray.lobes);
+            pending = vec3f(0.0);
+        }
+        if ends {
+            break;
+        }
         let usual_m = max(least_m, growth * t);
         let narrow_m = min(select(usual_m, usual_m / CLOSER, within), stop_m - t);
         // Not quite at a cell's end: an edge that begins with the cell belongs to it.
         let at = t + mix(0.05, 0.95, ray.jitter) * narrow_m;
         let h = altitude_after(clouds.radius_m, view.altitude_m, ray.mu, at);
-        let p = place_at(at, ray.direction);
-        let density = band_extinction(band, p, h, true, narrow_m);
+        let density = band_extinction(band, place_at(at, ray.direction), h, true, narrow_m);
         // The way walked back is gone in close steps, whatever is there.
         if density.bulk <= 0.0 && t >= until_m {
             within = false;
-            seen.light += pending * source;
-            pending = 0.0;
-            since = again;
             empty += 1u;
             t += select(narrow_m, WIDE * narrow_m, empty > EMPTY);
             continue;
@@ -190,26 +225,14 @@ fn march_band(band: CloudBand, ray: CloudRay, start_m: f32, stop_m: f32, left_be
             empty = 0u;
             continue;
         }
-        let depth = density.value * narrow_m;
-        let passed = exp(-depth);
+        let passed = exp(-density.value * narrow_m);
         let share = seen.left * (1.0 - passed);
-        // Light changes over a mean free path: between two places where it is found it counts by their mean.
-        for (var anew = share > 0.0 && since >= again; anew; anew = false) {
-            let found = source_at(band, p, h, density.value, ray.nu);
-            seen.light += pending * 0.5 * (source + found);
-            source = found;
-            pending = 0.0;
-            since = 0.0;
-        }
-        since += max(depth, again / MOST_CELLS);
-        pending += share;
+        pending += share * vec3f(1.0, at, density.value);
         seen.distance_m += share * at;
-        weight += share;
         seen.left *= passed;
         t += narrow_m;
     }
-    seen.light += pending * source;
-    seen.distance_m = select(start_m, seen.distance_m / max(weight, 1e-6), weight > 0.0);
+    seen.distance_m = select(start_m, seen.distance_m / max(1.0 - seen.left, 1e-6), seen.left < 1.0 - 1e-6);
     // What is left of an opaque cloud is nothing.
     if seen.left * left_before <= OPAQUE {
         seen.left = 0.0;
@@ -223,18 +246,13 @@ fn sheet_seen(index: u32, ray: CloudRay, t: f32) -> BandSeen {
     let p = place_at(t, ray.direction);
     let up = normalize(p + vec3f(0.0, 0.0, clouds.radius_m));
     let mu = max(abs(dot(up, ray.direction)), 0.02);
-    let mu_s = dot(up, view.sun);
     let depth = sheet_optical_depth(sheet, p, sheet.height_m);
-    let sun = view.sun_irradiance * transmittance_to_space(air, transmittance_table, linear_clamp, sheet.height_m, mu_s);
-    let slant = max(abs(mu_s), 0.05);
-    let lit_from_above = mu_s > 0.0;
-    let seen_from_below = dot(up, ray.direction) > 0.0;
+    let around = surroundings(p, sheet.height_m);
+    let over = shade_depth(shade, shade_maps, linear_clamp, clouds.radius_m, p, sheet.height_m + 1.0, view.sun, around.mu_s);
     // Half the way in, towards the light.
-    let before = 0.5 * depth / slant;
-    let around = surroundings(sheet.height_m, mu_s);
-    let over = shade_depth(shade, shade_maps, linear_clamp, clouds.radius_m, p, sheet.height_m + 1.0, view.sun, mu_s);
-    let direct = clouds.sun_factor * clouds.sun_colour * sun * exp(-over) * lit_source(ray.nu, before, before);
-    let even = clouds.ambient_factor * (around.above + around.below) * ambient_source(0.5 * depth, 0.5 * depth);
+    let before = 0.5 * depth / max(abs(around.mu_s), 0.05);
+    let direct = around.sun * exp(-over) * lit_source(ray.lobes, before, before);
+    let even = (around.above + around.below) * ambient_source(0.5 * depth, 0.5 * depth);
     let left = exp(-depth / mu);
     return BandSeen((1.0 - left) * clouds.albedo * (direct + even), left, t);
 }
@@ -294,7 +312,7 @@ fn march_clouds(ray: CloudRay) -> CloudsSeen {
         }
         var part: BandSeen;
         if next.index < 8u {
-            part = march_band(clouds.bands[next.index], ray, next.start_m, next.stop_m, seen.left);
+            part = march_band(next.index, ray, next.start_m, next.stop_m, seen.left);
         } else {
             part = sheet_seen(next.index - 8u, ray, next.start_m);
         }

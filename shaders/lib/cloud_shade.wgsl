@@ -1,5 +1,6 @@
-// Shadows of clouds: for each band and sheet a map of its optical depth towards the light, by where the way to the light
-// crosses the band's middle.
+// Shadows of clouds: for each band and sheet a map of its optical depth along the light, by where the light crosses the
+// band's middle. Two layers a map hold the depth from the band's top down to eight heights, the last of them the base,
+// where it is the whole.
 import package::lib::geometry::{along_sphere, distance_to_top};
 import package::lib::light::Shaded;
 
@@ -31,6 +32,63 @@ fn shade_place(shade: CloudShade, coordinate: vec2f) -> vec2f {
     return shade.centre_m + shade.reach_m * u * abs(u);
 }
 
+// Shares of a band's thickness above the eight heights, which stand closer near top and base, where clouds begin: 2x² and
+// 1 - 2 (1 - x)² at eighths.
+const UPPER_SHARES = vec4f(0.03125, 0.125, 0.28125, 0.5);
+const LOWER_SHARES = vec4f(0.71875, 0.875, 0.96875, 1.0);
+
+// Maps are blurred by their texels, and light that is scattered often goes about as 1/(1 + τ/3): so it is this that they
+// hold, or a bright rim beside a dark core would be drowned.
+fn depth_to_map(depth: vec4f) -> vec4f {
+    return 1.0 / (1.0 + depth / 3.0);
+}
+
+fn depth_from_map(value: vec4f) -> vec4f {
+    return 3.0 / value - 3.0;
+}
+
+// No light runs lower than this through a band: beyond, it would be in there for ever.
+const LEAST_COSINE = 0.03;
+
+fn light_cosine(mu: f32) -> f32 {
+    return select(-1.0, 1.0, mu >= 0.0) * max(abs(mu), LEAST_COSINE);
+}
+
+// Optical depth of a band between a place in it and the light, and beyond the place.
+struct LightDepth {
+    before: f32,
+    behind: f32,
+}
+
+fn light_depth_within(
+    shade: CloudShade,
+    maps: texture_2d_array<f32>,
+    linear_clamp: sampler,
+    index: u32,
+    base_m: f32,
+    top_m: f32,
+    radius_m: f32,
+    p: vec3f,
+    altitude_m: f32,
+    light: vec3f,
+    mu: f32,
+) -> LightDepth {
+    let middle_m = 0.5 * (base_m + top_m);
+    let q = p + (middle_m - altitude_m) / light_cosine(mu) * light;
+    let at = shade_coordinate(shade, along_sphere(radius_m, q, middle_m));
+    let upper = depth_from_map(textureSampleLevel(maps, linear_clamp, at, 2u * index, 0.0));
+    let lower = depth_from_map(textureSampleLevel(maps, linear_clamp, at, 2u * index + 1u, 0.0));
+    let share = (top_m - altitude_m) / (top_m - base_m);
+    // The rise from each height to the next counts by how much of it lies above.
+    let upper_before = vec4f(0.0, UPPER_SHARES.xyz);
+    let lower_before = vec4f(UPPER_SHARES.w, LOWER_SHARES.xyz);
+    let u = clamp((share - upper_before) / (UPPER_SHARES - upper_before), vec4f(0.0), vec4f(1.0));
+    let l = clamp((share - lower_before) / (LOWER_SHARES - lower_before), vec4f(0.0), vec4f(1.0));
+    let over = dot(u, upper - vec4f(0.0, upper.xyz)) + dot(l, lower - vec4f(upper.w, lower.xyz));
+    let under = lower.w - over;
+    return LightDepth(select(under, over, mu >= 0.0), select(over, under, mu >= 0.0));
+}
+
 // Optical depth towards the light of all bands over a place. `mu` is the light's cosine with the zenith there.
 fn shade_depth(
     shade: CloudShade,
@@ -45,11 +103,12 @@ fn shade_depth(
     var sum = 0.0;
     for (var i = 0u; i < shade.count; i++) {
         let middle_m = shade.middles_m[i / 4u][i % 4u];
-        let over = max(middle_m - altitude_m, 0.0);
-        let way_m = distance_to_top(radius_m, middle_m, min(altitude_m, middle_m), mu);
-        let at = shade_coordinate(shade, along_sphere(radius_m, p + way_m * light, middle_m));
-        let depth = textureSampleLevel(maps, linear_clamp, at, i, 0.0).r;
-        sum += select(0.0, depth, over > 0.0);
+        // A loop of one round at most: a software device runs what an `if` leaves out.
+        for (var over = middle_m > altitude_m; over; over = false) {
+            let way_m = distance_to_top(radius_m, middle_m, altitude_m, mu);
+            let at = shade_coordinate(shade, along_sphere(radius_m, p + way_m * light, middle_m));
+            sum += depth_from_map(textureSampleLevel(maps, linear_clamp, at, 2u * i + 1u, 0.0)).a;
+        }
     }
     return sum;
 }

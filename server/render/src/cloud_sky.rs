@@ -109,7 +109,6 @@ impl<'a> CloudSky<'a> {
                     band.top_m = band.top_m.max(narrow(volume.top_m));
                     band.count += 1;
                     band.thickness_m = band.thickness_m.min(thickness_m);
-                    band.extinction_per_m = band.extinction_per_m.max(layer.extinction_per_m);
                 }
                 None => bands.push(BandUniform {
                     base_m: layer.base_m,
@@ -117,7 +116,6 @@ impl<'a> CloudSky<'a> {
                     first: at,
                     count: 1,
                     thickness_m,
-                    extinction_per_m: layer.extinction_per_m,
                 }),
             }
         }
@@ -204,7 +202,7 @@ impl<'a> CloudSky<'a> {
             ambient_factor: narrow(clouds.ambient_factor),
             powder: narrow(clouds.powder),
             octaves: clouds.octaves,
-            light_steps: clouds.light_steps,
+            light_steps: if fineness < 1.0 { 0 } else { clouds.light_steps },
             haze: narrow(clouds.haze),
         }
     }

@@ -174,11 +174,11 @@ impl<'a> CloudLight<'a> {
     }
 }
 
-/// Steps of a shadow's ray through a band.
-const fn shadow_steps(quality: Quality) -> u32 {
+/// The longest step of the light's way through a band, in height, metres.
+const fn shadow_step_m(quality: Quality) -> f32 {
     match quality {
-        Quality::Preview => 8,
-        Quality::Final => 24,
+        Quality::Preview => 300.0,
+        Quality::Final => 120.0,
     }
 }
 
@@ -271,7 +271,6 @@ impl CloudPasses {
         let scene = sky.scene;
         let clouds = Part::new(&sky.uniform(fineness(quality)));
         let shade = sky.shade(&light.stand, scene.camera.position_m);
-        let casts = scene.clouds.as_ref().is_some_and(|clouds| clouds.shadows);
         let shade = Part::new(&shade);
         let reads = (&*tables.transmittance, &tables.multi_scattering.source);
         let aerial = self
@@ -279,7 +278,7 @@ impl CloudPasses {
             .run(recorder, &tables.air, &light.stand, reads, tables.plan, quality);
         let towards = ShadowUniform {
             light: light.stand.sun.as_vec3(),
-            steps: if casts { shadow_steps(quality) } else { 1 },
+            step_m: shadow_step_m(quality),
         };
         let shadow = self.shadow.run(
             recorder,

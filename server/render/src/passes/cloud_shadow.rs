@@ -21,7 +21,7 @@ pub(crate) struct CloudShadow {
 const fn side(quality: Quality) -> u32 {
     match quality {
         Quality::Preview => 128,
-        Quality::Final => 512,
+        Quality::Final => 384,
     }
 }
 
@@ -33,7 +33,7 @@ impl CloudShadow {
         }
     }
 
-    /// `count` maps, one after the other in height.
+    /// `count` maps of two layers, one after the other in height.
     pub(crate) fn run(
         &mut self,
         recorder: &mut Recorder<'_>,
@@ -55,7 +55,7 @@ impl CloudShadow {
         self.memo.get_or(made_from, || {
             let gpu = recorder.gpu;
             let side = side(quality);
-            let view = gpu.written("cloud_shadow", [side, side, count], Shape::Layers, Texel::Float);
+            let view = gpu.written("cloud_shadow", [side, side, 2 * count], Shape::Layers, Texel::Float);
             let (clouds, shade) = (clouds.upload(gpu, "clouds"), shade.upload(gpu, "shade"));
             let light = light.upload(gpu, "shadow");
             let mut binds = textures.binds(&clouds);

@@ -27,7 +27,6 @@ pub(crate) struct BandUniform {
     pub(crate) first: u32,
     pub(crate) count: u32,
     pub(crate) thickness_m: f32,
-    pub(crate) extinction_per_m: f32,
 }
 
 /// `CloudSheet` of `lib/cloud.wgsl`.
@@ -109,7 +108,7 @@ pub(crate) struct ShadeUniform {
 #[derive(Clone, Copy, Debug, ShaderType)]
 pub(crate) struct ShadowUniform {
     pub(crate) light: Vec3,
-    pub(crate) steps: u32,
+    pub(crate) step_m: f32,
 }
 
 /// `Tile` of `cloud_view.wgsl`.

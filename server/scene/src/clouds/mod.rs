@@ -72,7 +72,7 @@ pub struct Clouds {
     pub powder: f64,
     /// Orders of scattering that are followed, each weaker, wider and deeper than the one before (Wrenninge 2013).
     #[serde(deserialize_with = "whole")]
-    #[schemars(range(min = 1, max = 16))]
+    #[schemars(range(min = 1, max = 8))]
     pub octaves: u32,
     /// Most steps along a ray of view.
     #[serde(deserialize_with = "whole")]
