@@ -4,16 +4,14 @@ import package::lib::cloud_shade::{CloudShade, LOWER_SHARES, UPPER_SHARES, depth
 
 struct Shadow {
     light: vec3f,
-    // No step is longer, but for the thickest bands.
+    // Between two heights no step is longer, unless that many do not reach.
     step_m: f32,
+    most_steps: f32,
 }
 
 @group(0) @binding(8) var<uniform> shade: CloudShade;
 @group(0) @binding(9) var<uniform> shadow: Shadow;
 @group(0) @binding(10) var maps: texture_storage_2d_array<rgba32float, write>;
-
-// From one height to the next.
-const MOST_STEPS = 8.0;
 
 // The place on a sphere of altitude h, that way from the origin along the sphere.
 fn place_on(along_m: vec2f, altitude_m: f32) -> vec3f {
@@ -50,7 +48,7 @@ fn cloud_shadow(@builtin(global_invocation_id) id: vec3u) {
         for (var k = 0u; k < 8u; k++) {
             let share = dot(select(vec4f(0.0), UPPER_SHARES, vec4u(0u, 1u, 2u, 3u) == vec4u(k)) + select(vec4f(0.0), LOWER_SHARES, vec4u(4u, 5u, 6u, 7u) == vec4u(k)), vec4f(1.0));
             let below_m = mix(band.top_m, band.base_m, share);
-            let steps = clamp(ceil((h - below_m) / shadow.step_m), 1.0, MOST_STEPS);
+            let steps = clamp(ceil((h - below_m) / shadow.step_m), 1.0, shadow.most_steps);
             let step_m = (h - below_m) / steps;
             for (var i = 0.5; i < steps; i += 1.0) {
                 let at_m = h - i * step_m;

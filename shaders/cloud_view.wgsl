@@ -9,10 +9,7 @@ override PROJECTION: u32 = 0u;
 
 struct Tile {
     origin_px: vec2u,
-    // Of the table, its margin counted.
     size_px: vec2u,
-    // Pixels of the picture to the side of one texel.
-    grain: u32,
 }
 
 @group(0) @binding(18) var<uniform> camera: Camera;
@@ -20,9 +17,6 @@ struct Tile {
 @group(0) @binding(20) var<uniform> observer: Observer;
 // Radiance to add in R, G, B; alpha is the share of what lies behind that comes through.
 @group(0) @binding(21) var table: texture_storage_2d<rgba32float, write>;
-
-// Texels beyond the tile.
-const MARGIN = 1.0;
 
 // Interleaved gradient noise (Jimenez 2014): even over every 3×3 pixels, so that what is left of it is fine-grained.
 fn jitter_of(pixel: vec2f) -> f32 {
@@ -34,12 +28,11 @@ fn cloud_view(@builtin(global_invocation_id) id: vec3u) {
     if any(id.xy >= tile.size_px) {
         return;
     }
-    // The table reaches a texel beyond the tile on every side, so that there is something to interpolate with.
-    let pixel = vec2f(tile.origin_px) + (vec2f(id.xy) - MARGIN + 0.5) * f32(tile.grain);
+    let pixel = vec2f(tile.origin_px + id.xy) + 0.5;
     let sight = sight_at(camera, PROJECTION, pixel);
     var value = vec4f(0.0, 0.0, 0.0, 1.0);
     if sight.seen {
-        let jitter = jitter_of(vec2f(tile.origin_px / tile.grain + id.xy));
+        let jitter = jitter_of(vec2f(tile.origin_px + id.xy));
         let ray = cloud_ray(observer, sight.direction, jitter);
         let seen = march_clouds(ray);
         value = vec4f(seen.light, seen.left);

@@ -26,7 +26,6 @@ struct CloudFrame {
     // The observer's place in the scene.
     place_m: vec3f,
     // Of no meaning here.
-    fineness: f32,
     // The light that casts them.
     light: vec3f,
 }

@@ -2,12 +2,12 @@
 // variant of this pass: what is seen on a lattice of places, one to a few pixels; under clouds a finer lattice that
 // takes the clear sky from the first; and the pixels between.
 import package::lib::camera::sight_at;
-import package::lib::cloud_shade::clouds_before;
+import package::lib::dome::{BLOCK_CORNERS, BLOCK_SIDE, Dome, dome_cell};
 import package::lib::even::{cell_evenness, is_even_run};
-import package::lib::geometry::angle_if_near;
+import package::lib::geometry::{angle_if_near, edge_zenith_angle};
 import package::lib::picture::{Exposure, Tone, packed_pixel, picture_pixel, shown_colour};
 import package::lib::sky_light::{
-    CLOUDS, Light, MOON, PROJECTION, camera, cloud_frame, corona_towards, disc_in_pixel, light_towards, moon,
+    CLOUDS, Light, MOON, PROJECTION, air, camera, cloud_frame, corona_towards, disc_in_pixel, light_towards, moon,
     moon_in_pixel, radiance_of, view,
 };
 
@@ -27,6 +27,8 @@ override PICTURE: bool = false;
 override SPAN: u32 = 1u;
 // As `picture_pixel` numbers it.
 override CURVE: u32 = 3u;
+// True to look clouds up by direction, false for a table of the tile's pixels.
+override DOME: bool = false;
 
 struct Tile {
     origin_px: vec2u,
@@ -45,6 +47,10 @@ struct Tile {
 // cell right and down of it: 0 uneven, 1 even but for shadows on the ground, 2 even.
 @group(0) @binding(23) var<storage, read> lattice: array<vec4f>;
 @group(0) @binding(24) var<storage, read_write> next_lattice: array<vec4f>;
+@group(0) @binding(25) var<uniform> dome: Dome;
+// Where each block of the dome is kept, and what is seen of clouds at their corners.
+@group(0) @binding(26) var<storage, read> dome_pages: array<u32>;
+@group(0) @binding(27) var<storage, read> dome_seen: array<vec4f>;
 
 // Pixels of a row that share a thread of the last stage, and of which uneven ones may share as SPAN says.
 const BLOCK = 8u;
@@ -53,13 +59,26 @@ fn glaring() -> vec3f {
     return select(view.sun, moon.direction, MOON && moon.glares == 1.0);
 }
 
-// Before the clouds, if there are any, at a place of the frame.
-fn with_clouds(behind: vec3f, place: vec2f) -> vec3f {
-    if CLOUDS {
-        let clouds = clouds_before(cloud_table, place - vec2f(tile.origin_px), cloud_frame.fineness);
-        return max(clouds.a * behind + clouds.rgb, vec3f(0.0));
+fn clouds_towards(direction: vec3f) -> vec4f {
+    let cell = dome_cell(dome, direction, view.up, cos(edge_zenith_angle(air.radius_m, view.altitude_m)));
+    let i = dome_pages[cell.page] * BLOCK_CORNERS + cell.corner;
+    let top = mix(dome_seen[i], dome_seen[i + 1u], cell.part.x);
+    let bottom = mix(dome_seen[i + BLOCK_SIDE], dome_seen[i + BLOCK_SIDE + 1u], cell.part.x);
+    return mix(top, bottom, cell.part.y);
+}
+
+// Before the clouds, if there are any. `pixel` counts from the tile's first.
+fn with_clouds(behind: vec3f, pixel: vec2u, direction: vec3f) -> vec3f {
+    if !CLOUDS {
+        return behind;
     }
-    return behind;
+    var clouds: vec4f;
+    if DOME {
+        clouds = clouds_towards(direction);
+    } else {
+        clouds = textureLoad(cloud_table, pixel, 0);
+    }
+    return max(clouds.a * behind + clouds.rgb, vec3f(0.0));
 }
 
 // Some pixels of a row, which may share the light at the first and the last of SPAN from `first` on.
@@ -86,8 +105,13 @@ fn write_run(first: vec2u, begin: u32, end: u32) {
         if sight.seen {
             var disc = disc_in_pixel(place, sight.direction);
             if MOON {
-                disc = moon.sun_disc_scale * disc + moon_in_pixel(place, sight.direction);
-                disc += moon.sun_disc_scale * corona_towards(sight.direction);
+                disc = moon.sun_disc_scale * (disc + corona_towards(sight.direction));
+            }
+            if DOME {
+                disc *= dome.sun_left;
+            }
+            if MOON {
+                disc += select(1.0, dome.moon_left, DOME) * moon_in_pixel(place, sight.direction);
             }
             let nu = clamp(dot(sight.direction, view.sun), -1.0, 1.0);
             var light: Light;
@@ -100,7 +124,11 @@ fn write_run(first: vec2u, begin: u32, end: u32) {
             } else {
                 light = light_towards(sight.direction, dot(sight.direction, view.up), nu);
             }
-            let seen = with_clouds(radiance_of(light, nu, disc), place);
+            let pixel = first + vec2u(k, 0u) - tile.origin_px;
+            var seen = with_clouds(radiance_of(light, nu, select(disc, vec3f(0.0), DOME)), pixel, sight.direction);
+            if DOME {
+                seen += light.left * disc;
+            }
             value = vec4f(seen, 1.0 + angle_if_near(sight.direction, glaring()));
         }
         let pixel = first + vec2u(k, 0u);
@@ -168,7 +196,7 @@ fn write_place(id: vec2u) {
     }
     var shown = clear.seen;
     if !CLOUDS || STAGE == 2u {
-        let seen = vec4f(with_clouds(clear.seen, place), 1.0 + angle_if_near(sight.direction, glaring()));
+        let seen = vec4f(with_clouds(clear.seen, vec2u(0u), sight.direction), 1.0 + angle_if_near(sight.direction, glaring()));
         shown = shown_colour(tone_settings, exposure.scale, CURVE, seen);
     }
     next_lattice[id.y * count.x + id.x] = vec4f(shown, even);

@@ -1,6 +1,7 @@
 // Adds the stars to a tile of the picture. The list holds each pixel once, so that no two threads meet.
 import package::lib::air::Air;
-import package::lib::cloud_shade::clouds_before;
+import package::lib::dome::{BLOCK_CORNERS, BLOCK_SIDE, Dome, dome_cell};
+import package::lib::geometry::edge_zenith_angle;
 import package::lib::light::View;
 import package::lib::stars::light_left;
 
@@ -21,12 +22,12 @@ struct Stretch {
     out: f32,
     // Of the tile.
     width: u32,
-    // Texels of the clouds' table to a pixel.
-    cloud_fineness: f32,
 }
 
 // True where there are clouds.
 override CLOUDS: bool = false;
+// True to look clouds up by direction, false for a table of the tile's pixels.
+override DOME: bool = false;
 
 @group(0) @binding(0) var<uniform> air: Air;
 @group(0) @binding(1) var<uniform> view: View;
@@ -37,6 +38,18 @@ override CLOUDS: bool = false;
 @group(0) @binding(6) var<storage, read_write> radiance: array<vec4f>;
 // What they let through, in alpha.
 @group(0) @binding(7) var cloud_table: texture_2d<f32>;
+@group(0) @binding(8) var<uniform> dome: Dome;
+// Where each block of the dome is kept, and what is seen of clouds at their corners.
+@group(0) @binding(9) var<storage, read> dome_pages: array<u32>;
+@group(0) @binding(10) var<storage, read> dome_seen: array<vec4f>;
+
+fn left_towards(direction: vec3f) -> f32 {
+    let cell = dome_cell(dome, direction, view.up, cos(edge_zenith_angle(air.radius_m, view.altitude_m)));
+    let i = dome_pages[cell.page] * BLOCK_CORNERS + cell.corner;
+    let top = mix(dome_seen[i].a, dome_seen[i + 1u].a, cell.part.x);
+    let bottom = mix(dome_seen[i + BLOCK_SIDE].a, dome_seen[i + BLOCK_SIDE + 1u].a, cell.part.x);
+    return mix(top, bottom, cell.part.y);
+}
 
 @compute @workgroup_size(64)
 fn stars(@builtin(global_invocation_id) id: vec3u) {
@@ -47,9 +60,10 @@ fn stars(@builtin(global_invocation_id) id: vec3u) {
     let mu = dot(glint.direction, view.up);
     var left = light_left(air, transmittance_table, linear_clamp, view.altitude_m, mu);
     let pixel = glint.pixel - stretch.origin;
-    if CLOUDS {
-        let place = vec2f(f32(pixel % stretch.width), f32(pixel / stretch.width)) + 0.5;
-        left *= clouds_before(cloud_table, place, stretch.cloud_fineness).a;
+    if DOME {
+        left *= left_towards(glint.direction);
+    } else if CLOUDS {
+        left *= textureLoad(cloud_table, vec2u(pixel % stretch.width, pixel / stretch.width), 0).a;
     }
     radiance[pixel] += vec4f(stretch.out * left * glint.radiance, 0.0);
 }

@@ -4,11 +4,15 @@ import package::lib::air::Air;
 import package::lib::cloud::{CloudBand, band_extinction, clouds, sheet_optical_depth};
 import package::lib::cloud_light::{Lobes, ambient_source, lit_source};
 import package::lib::cloud_shade::{CloudShade, LightDepth, light_depth_within, shade_depth};
+import package::lib::cloud_nodes::{NODE_SHARE, Nodes, with_node};
 import package::lib::geometry::{PI, altitude_after, cosine_after, distance_to_sphere, distance_to_top, shell_stretch};
 import package::lib::light::{View, scattered_radiance};
 import package::lib::scattering::Scattered;
 import package::lib::tables::{SkyViewRay, light_from_table, sun_cosine_unit, unit_to_coordinate};
 import package::lib::transmittance::transmittance_to_space;
+
+// True to note the places that are seen instead of their light.
+override NODES: bool = false;
 
 @group(0) @binding(8) var<uniform> air: Air;
 // The light that counts: the sun, or at night the moon.
@@ -57,6 +61,8 @@ const WIDE = 3.0;
 const CLOSER = 1.5;
 // The light is found once for so many steps.
 const RESTS = 4.0;
+// A cloud that stands apart counts by itself if it is more than this.
+const LEAST_APART = 0.05;
 // Over which way clouds fade, where they are asked to.
 const HAZE_M = 3e4;
 // A ray through more air than this sees none of the clouds beyond.
@@ -160,6 +166,14 @@ fn light_depth(index: u32, band: CloudBand, p: vec3f, altitude_m: f32, mu_s: f32
     return light_depth_within(shade, shade_maps, linear_clamp, index, band.base_m, band.top_m, clouds.radius_m, p, altitude_m, view.sun, mu_s);
 }
 
+var<private> noted: Nodes;
+var<private> noted_count: u32;
+
+fn note(share: f32, distance_m: f32, index: u32, extinction_per_m: f32) {
+    noted = with_node(noted, noted_count, distance_m, (1.0 - faded(distance_m)) * share, index, extinction_per_m);
+    noted_count += 1u;
+}
+
 struct BandSeen {
     light: vec3f,
     left: f32,
@@ -188,8 +202,15 @@ fn march_band(index: u32, ray: CloudRay, start_m: f32, stop_m: f32, left_before:
     for (var k = 0u; k < most; k++) {
         let ends = t >= stop_m || seen.left * left_before <= OPAQUE || k + 1u == most;
         // One place for the mean of some steps, and the same steps for all neighbours: devices run them in step.
-        for (var lit = pending.x > 0.0 && (ends || k % rests == 0u); lit; lit = false) {
+        let apart = pending.x >= NODE_SHARE || (pending.x > LEAST_APART && !within);
+        let due = ends || select(k % rests == 0u, apart, NODES);
+        for (var lit = pending.x > 0.0 && due; lit; lit = false) {
             let at = pending.y / pending.x;
+            if NODES {
+                note(left_before * pending.x, at, index, pending.z / pending.x);
+                pending = vec3f(0.0);
+                continue;
+            }
             let p = place_at(at, ray.direction);
             let h = altitude_after(clouds.radius_m, view.altitude_m, ray.mu, at);
             for (var begins = first_m < 0.0; begins; begins = false) {
@@ -241,20 +262,30 @@ fn march_band(index: u32, ray: CloudRay, start_m: f32, stop_m: f32, left_before:
 }
 
 // A thin layer: its light scattered once with the phase function, and the rest as a slab's.
-fn sheet_seen(index: u32, ray: CloudRay, t: f32) -> BandSeen {
+fn sheet_source(index: u32, p: vec3f, depth: f32, lobes: Lobes) -> vec3f {
     let sheet = clouds.sheets[index];
-    let p = place_at(t, ray.direction);
-    let up = normalize(p + vec3f(0.0, 0.0, clouds.radius_m));
-    let mu = max(abs(dot(up, ray.direction)), 0.02);
-    let depth = sheet_optical_depth(sheet, p, sheet.height_m);
     let around = surroundings(p, sheet.height_m);
     let over = shade_depth(shade, shade_maps, linear_clamp, clouds.radius_m, p, sheet.height_m + 1.0, view.sun, around.mu_s);
     // Half the way in, towards the light.
     let before = 0.5 * depth / max(abs(around.mu_s), 0.05);
-    let direct = around.sun * exp(-over) * lit_source(ray.lobes, before, before);
+    let direct = around.sun * exp(-over) * lit_source(lobes, before, before);
     let even = (around.above + around.below) * ambient_source(0.5 * depth, 0.5 * depth);
-    let left = exp(-depth / mu);
-    return BandSeen((1.0 - left) * clouds.albedo * (direct + even), left, t);
+    return clouds.albedo * (direct + even);
+}
+
+fn sheet_seen(index: u32, ray: CloudRay, t: f32, left_before: f32) -> BandSeen {
+    let sheet = clouds.sheets[index];
+    let p = place_at(t, ray.direction);
+    let up = normalize(p + vec3f(0.0, 0.0, clouds.radius_m));
+    let depth = sheet_optical_depth(sheet, p, sheet.height_m);
+    let left = exp(-depth / max(abs(dot(up, ray.direction)), 0.02));
+    if NODES {
+        if left < 1.0 {
+            note(left_before * (1.0 - left), t, FIRST_SHEET + index, depth);
+        }
+        return BandSeen(vec3f(0.0), left, t);
+    }
+    return BandSeen((1.0 - left) * sheet_source(index, p, depth, ray.lobes), left, t);
 }
 
 // The next thing along the ray, of those that begin at `t` or later: bands, then sheets.
@@ -265,6 +296,8 @@ struct Next {
 }
 
 const NOTHING = 1000u;
+// Sheets are numbered after the bands.
+const FIRST_SHEET = 8u;
 
 fn nearer(best: Next, index: u32, start_m: f32, stop_m: f32, t: f32) -> Next {
     if start_m < stop_m && start_m >= t && start_m < best.start_m {
@@ -291,10 +324,10 @@ fn next_after(ray: CloudRay, t: f32) -> Next {
         let inside = shell_stretch(clouds.radius_m + height_m, h - height_m, ray.mu, FARTHEST_M * 100.0);
         if inside.x < inside.y {
             if inside.x > 0.0 && inside.x < ray.end_m {
-                best = nearer(best, 8u + i, inside.x, inside.x + 1.0, t);
+                best = nearer(best, FIRST_SHEET + i, inside.x, inside.x + 1.0, t);
             }
             if inside.y < ray.end_m {
-                best = nearer(best, 8u + i, inside.y, inside.y + 1.0, t);
+                best = nearer(best, FIRST_SHEET + i, inside.y, inside.y + 1.0, t);
             }
         }
     }
@@ -311,25 +344,38 @@ fn march_clouds(ray: CloudRay) -> CloudsSeen {
             break;
         }
         var part: BandSeen;
-        if next.index < 8u {
+        if next.index < FIRST_SHEET {
             part = march_band(next.index, ray, next.start_m, next.stop_m, seen.left);
         } else {
-            part = sheet_seen(next.index - 8u, ray, next.start_m);
+            part = sheet_seen(next.index - FIRST_SHEET, ray, next.start_m, seen.left);
         }
-        let before = air_before(ray, part.distance_m);
-        // The control takes far clouds out of sight as S2 does, by a share that grows with the way.
-        let faded = clouds.haze * (1.0 - exp(-part.distance_m / HAZE_M));
-        part.left = mix(part.left, 1.0, faded);
-        part.light *= 1.0 - faded;
-        seen.light += seen.left * (before.left * part.light + (1.0 - part.left) * (before.single + before.multiple));
+        let away = faded(part.distance_m);
+        part.left = mix(part.left, 1.0, away);
+        part.light *= 1.0 - away;
+        if !NODES {
+            let before = air_before(ray, part.distance_m);
+            seen.light += seen.left * (before.left * part.light + (1.0 - part.left) * (before.single + before.multiple));
+        }
         seen.left *= part.left;
         t = next.start_m + 0.5;
     }
-    // Under the clouds the air gets what they let through, on average: the light of clear air less the rest.
-    if view.altitude_m < shade.base_m {
-        let up_m = distance_to_top(clouds.radius_m, shade.base_m, view.altitude_m, ray.mu);
-        let under = air_before(ray, min(up_m, ray.end_m));
-        seen.light -= (1.0 - shade.direct_left) * under.single + (1.0 - shade.diffuse_left) * under.multiple;
+    if !NODES {
+        seen.light -= unlit_air(ray);
     }
     return seen;
+}
+
+// Under the clouds the air gets what they let through, on average: this is the light of clear air less that.
+fn unlit_air(ray: CloudRay) -> vec3f {
+    if view.altitude_m >= shade.base_m {
+        return vec3f(0.0);
+    }
+    let up_m = distance_to_top(clouds.radius_m, shade.base_m, view.altitude_m, ray.mu);
+    let under = air_before(ray, min(up_m, ray.end_m));
+    return (1.0 - shade.direct_left) * under.single + (1.0 - shade.diffuse_left) * under.multiple;
+}
+
+// The control takes far clouds out of sight as S2 does, by a share that grows with the way.
+fn faded(distance_m: f32) -> f32 {
+    return clouds.haze * (1.0 - exp(-distance_m / HAZE_M));
 }

@@ -135,17 +135,3 @@ fn ground_shaded(
     let cosine = max(mu, 0.03);
     return Shaded(slab_transmission(shade.asymmetry, cosine, depth * cosine), shade.diffuse_left);
 }
-
-// From the table of a tile's clouds, which has a margin of one texel, at a place in the tile, in pixels; `fineness` is
-// texels to a pixel. Weighed here and not by a sampler, whose rounding would show where tiles meet.
-fn clouds_before(table: texture_2d<f32>, place: vec2f, fineness: f32) -> vec4f {
-    let at = 0.5 + place * fineness;
-    let first = vec2u(at);
-    let part = fract(at);
-    let last = textureDimensions(table) - 1u;
-    let low = min(first, last);
-    let high = min(first + 1u, last);
-    let top = mix(textureLoad(table, low, 0), textureLoad(table, vec2u(high.x, low.y), 0), part.x);
-    let bottom = mix(textureLoad(table, vec2u(low.x, high.y), 0), textureLoad(table, high, 0), part.x);
-    return mix(top, bottom, part.y);
-}

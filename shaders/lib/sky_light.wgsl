@@ -33,12 +33,10 @@ override MOONLIGHT: bool = false;
 // True where there are clouds.
 override CLOUDS: bool = false;
 
-// How the clouds' table lies on the picture.
+// What the ground's shadows need to know of the clouds.
 struct CloudFrame {
     // The observer's place in the scene.
     place_m: vec3f,
-    // Texels to a pixel.
-    fineness: f32,
     // The light that casts their shadows.
     light: vec3f,
 }

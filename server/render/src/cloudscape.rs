@@ -2,6 +2,7 @@
 //! shadows.
 
 use crate::{
+    cloud_dome::CloudDomes,
     cloud_noise::CloudNoise,
     cloud_sky::CloudSky,
     error::Error,
@@ -39,6 +40,7 @@ pub(crate) struct CloudPasses {
     noise: CloudNoise,
     aerial: Aerial,
     shadow: CloudShadow,
+    pub(crate) dome: CloudDomes,
     pictures: Memo<Table>,
 }
 
@@ -137,13 +139,21 @@ impl Cloudscape {
         binds
     }
 
-    /// For a table of one ray to `grain` pixels' side.
-    pub(crate) fn frame(&self, grain: u32) -> CloudFrameUniform {
+    /// What the ground's shadows need.
+    pub(crate) const fn frame(&self) -> CloudFrameUniform {
         CloudFrameUniform {
             place_m: self.place_m,
-            fineness: 1.0 / crate::uniforms::narrow(f64::from(grain)),
             light: self.light,
         }
+    }
+
+    /// Of what stands where, whatever lights it.
+    pub(crate) fn shape_fingerprint(&self) -> Fingerprint {
+        Fingerprint::of((
+            "shape of clouds",
+            (&self.clouds, &self.air),
+            self.textures.fingerprint(),
+        ))
     }
 
     pub(crate) const fn fingerprint(&self) -> Fingerprint {
@@ -174,11 +184,11 @@ impl<'a> CloudLight<'a> {
     }
 }
 
-/// The longest step of the light's way through a band, in height, metres.
-const fn shadow_step_m(quality: Quality) -> f32 {
+/// The longest step in height of the light's way through a band, metres, and the most steps from one height to the next.
+const fn shadow_steps(quality: Quality) -> (f32, f32) {
     match quality {
-        Quality::Preview => 300.0,
-        Quality::Final => 120.0,
+        Quality::Preview => (300.0, 1.0),
+        Quality::Final => (120.0, 6.0),
     }
 }
 
@@ -196,6 +206,7 @@ impl CloudPasses {
             noise: CloudNoise::new(disk_cache),
             aerial: Aerial::new(),
             shadow: CloudShadow::new(gpu),
+            dome: CloudDomes::new(),
             pictures: Memo::new(4),
         }
     }
@@ -276,9 +287,11 @@ impl CloudPasses {
         let aerial = self
             .aerial
             .run(recorder, &tables.air, &light.stand, reads, tables.plan, quality);
+        let (step_m, most_steps) = shadow_steps(quality);
         let towards = ShadowUniform {
             light: light.stand.sun.as_vec3(),
-            step_m: shadow_step_m(quality),
+            step_m,
+            most_steps,
         };
         let shadow = self.shadow.run(
             recorder,

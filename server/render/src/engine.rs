@@ -2,12 +2,14 @@
 
 use crate::{
     camera::CameraUniform,
+    cloud_dome::{CloudsSeen, DomeView},
     cloud_sky::CloudSky,
     cloudscape::{CloudLight, CloudPasses},
     cpu::airglow::{NightLight, night_light},
     error::Error,
     gpu::Gpu,
     kernel::Recorder,
+    lens::Lens,
     lights::Lights,
     memo::{Fingerprint, Memo},
     method::Plan,
@@ -57,9 +59,6 @@ pub(crate) struct Engine {
     pub(crate) generation: u64,
     pub(crate) gpu: Gpu,
 }
-
-/// Pixels to the side of one ray through the clouds, in a preview.
-const PREVIEW_GRAIN: u32 = 4;
 
 impl Engine {
     /// `generation` tells this device from those before it.
@@ -180,18 +179,28 @@ impl Engine {
                 self.clouds
                     .scape(&mut recorder, &tables, (&sky, textures), light, order.quality)
             });
-            let grain = match order.quality {
-                Quality::Preview => PREVIEW_GRAIN,
-                Quality::Final => 1,
-            };
+            let camera = CameraUniform::new(&scene.camera, size_px);
+            let dome = clouds
+                .as_ref()
+                .filter(|_| order.quality == Quality::Preview)
+                .map(|scape| {
+                    let lens = Lens::new(&scene.camera, size_px);
+                    let pixel_angle = f64::from(camera.pixel_angle);
+                    self.clouds
+                        .dome
+                        .run(&mut recorder, scape, &lens, size_px, pixel_angle)
+                });
             let exposure = match scene.display.exposure {
                 Exposure::Auto { compensation_ev } if order.output == Output::Display => {
                     // The meter looks into neither sun nor moon, and sees no stars.
                     let small = meter_size(size_px);
-                    let camera = Part::new(&CameraUniform::new(&scene.camera, small));
-                    let parts = [lights.view(true), &camera, &observer];
+                    let metered = Part::new(&CameraUniform::new(&scene.camera, small));
+                    let parts = [lights.view(true), &metered, &observer];
                     let inputs = SkyInputs {
-                        clouds: clouds.as_ref().map(|scape| CloudInputs { scape, grain: 1 }),
+                        clouds: clouds.as_ref().map(|scape| CloudInputs {
+                            scape,
+                            dome: dome.as_ref(),
+                        }),
                         ..sky_inputs(&tables, &lights, true, parts, sky_view.as_deref())
                     };
                     let compensation = crate::uniforms::narrow(compensation_ev);
@@ -200,7 +209,6 @@ impl Engine {
                 }
                 _ => self.exposure.none(gpu),
             };
-            let camera = CameraUniform::new(&scene.camera, size_px);
             let ((), spent) = recorder.finish(&[], |_| ())?;
             let mut times = self.clouds.take_times();
             times.extend(spent);
@@ -209,6 +217,7 @@ impl Engine {
                     .clouds
                     .discs_left(gpu, scape, scene, &tables.stand, &night)
             })?;
+            let dome = dome.map(|dome| DomeView { discs_left, ..dome });
             let glare = lights.glare.behind(discs_left);
             let camera_part = Part::new(&camera);
             let by_lattices = order.quality == Quality::Preview && tables.plan.runs_evenly();
@@ -223,7 +232,7 @@ impl Engine {
                     stars,
                     clouds,
                     exposure,
-                    grain,
+                    dome,
                     by_lattices,
                     glare,
                     direct: direct.behind(discs_left),
@@ -285,7 +294,11 @@ impl Engine {
                         air: inputs.air,
                         view: inputs.view,
                         transmittance: inputs.transmittance,
-                        clouds: clouds.as_ref().map(|table| (table, frame.grain)),
+                        clouds: frame
+                            .dome
+                            .as_ref()
+                            .map(CloudsSeen::Dome)
+                            .or(clouds.as_ref().map(CloudsSeen::Tile)),
                     };
                     self.stars
                         .run(&mut recorder, reads, stars, tile, &buffers.radiance);

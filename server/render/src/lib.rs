@@ -5,6 +5,7 @@
 
 mod camera;
 mod catalogue;
+mod cloud_dome;
 mod cloud_noise;
 mod cloud_sky;
 mod cloudscape;

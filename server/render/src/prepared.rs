@@ -2,6 +2,7 @@
 
 use crate::{
     camera::CameraUniform,
+    cloud_dome::DomeView,
     cloudscape::Cloudscape,
     lights::{Glare, Lights},
     method::Plan,
@@ -36,7 +37,8 @@ pub(crate) struct Prepared {
     pub(crate) stars: Option<StarsOut>,
     pub(crate) clouds: Option<Cloudscape>,
     pub(crate) exposure: Arc<wgpu::Buffer>,
-    pub(crate) grain: u32,
+    /// A preview's clouds.
+    pub(crate) dome: Option<DomeView>,
     /// True for a preview whose pixels may be interpolated.
     pub(crate) by_lattices: bool,
     /// As clouds leave it.
@@ -53,17 +55,17 @@ const CLOUD_WORK: u32 = 48;
 impl Prepared {
     pub(crate) fn sky_inputs(&self) -> SkyInputs<'_> {
         let parts = [self.lights.view(false), &self.camera_part, &self.observer];
-        let grain = self.grain;
+        let dome = self.dome.as_ref();
         SkyInputs {
-            clouds: self.clouds.as_ref().map(|scape| CloudInputs { scape, grain }),
+            clouds: self.clouds.as_ref().map(|scape| CloudInputs { scape, dome }),
             ..sky_inputs(&self.tables, &self.lights, false, parts, self.sky_view.as_deref())
         }
     }
 
     /// About how many times the work of a pixel that reads tables a pixel takes.
     pub(crate) fn work_per_pixel(&self) -> u32 {
-        let clouds = if self.clouds.is_some() { CLOUD_WORK } else { 0 };
-        self.tables.plan.work_per_pixel() + clouds / (self.grain * self.grain)
+        let followed = self.clouds.is_some() && self.dome.is_none();
+        self.tables.plan.work_per_pixel() + if followed { CLOUD_WORK } else { 0 }
     }
 }
 

@@ -55,7 +55,12 @@ impl CloudShadow {
         self.memo.get_or(made_from, || {
             let gpu = recorder.gpu;
             let side = side(quality);
-            let view = gpu.written("cloud_shadow", [side, side, 2 * count], Shape::Layers, Texel::Float);
+            let view = gpu.written(
+                "cloud_shadow",
+                [side, side, 2 * count],
+                Shape::Layers,
+                Texel::Float,
+            );
             let (clouds, shade) = (clouds.upload(gpu, "clouds"), shade.upload(gpu, "shade"));
             let light = light.upload(gpu, "shadow");
             let mut binds = textures.binds(&clouds);

@@ -7,11 +7,8 @@ use crate::{
     kernel::{Bind, Recorder, Variants},
     memo::Fingerprint,
     shader::{self, Texel},
-    uniforms::{Part, TileUniform, clouds::CloudTileUniform},
+    uniforms::{Part, TileUniform},
 };
-
-/// Texels beyond the tile on every side.
-const MARGIN: u32 = 1;
 
 pub(crate) struct CloudView {
     kernels: Variants,
@@ -24,24 +21,19 @@ impl CloudView {
         }
     }
 
-    /// A table of the tile's size over `grain`, rounded up, with a margin of one texel: what to add in R, G and B, and what comes through in alpha.
+    /// A table of the tile's size: what to add in R, G and B, and what comes through in alpha.
     pub(crate) fn run(
         &mut self,
         recorder: &mut Recorder<'_>,
         scape: &Cloudscape,
         (camera, projection): (&Part, u32),
         tile: TileUniform,
-        grain: u32,
     ) -> Table {
         let gpu = recorder.gpu;
-        let size_px = tile.size_px.map(|side| side.div_ceil(grain) + 2 * MARGIN);
+        let size_px = tile.size_px;
         let view = gpu.written("cloud_view", [size_px.x, size_px.y, 1], Shape::Flat, Texel::Float);
         let parts = scape.upload(gpu);
-        let place = Part::new(&CloudTileUniform {
-            origin_px: tile.origin_px,
-            size_px,
-            grain,
-        });
+        let place = Part::new(&tile);
         let (camera, place) = (camera.upload(gpu, "camera"), place.upload(gpu, "tile"));
         let mut binds = scape.binds(&parts);
         binds.extend([

@@ -4,6 +4,8 @@
 pub(crate) mod aerial;
 pub(crate) mod cloud_curl;
 pub(crate) mod cloud_detail;
+pub(crate) mod cloud_dome;
+pub(crate) mod cloud_dome_light;
 pub(crate) mod cloud_probe;
 pub(crate) mod cloud_shadow;
 pub(crate) mod cloud_shape;

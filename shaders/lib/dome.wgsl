@@ -1,0 +1,54 @@
+// The sphere of directions as a square (Engelhardt and Dachsbacher 2008), of which blocks are kept where somebody looks.
+// Values stand at the corners of cells, so that every block holds all that its cells are interpolated from.
+
+struct Dome {
+    // Cells to a side of the square.
+    cells: u32,
+    // Of the discs of sun and moon, what clouds leave on average: a disc is smaller than cells.
+    sun_left: f32,
+    moon_left: f32,
+}
+
+// Cells to a side of a block, and corners that it holds.
+const BLOCK_CELLS = 16u;
+const BLOCK_SIDE = BLOCK_CELLS + 1u;
+const BLOCK_CORNERS = BLOCK_SIDE * BLOCK_SIDE;
+
+// 0 to 1; the upper half sphere is the diamond in the middle.
+fn dome_place(direction: vec3f) -> vec2f {
+    let p = direction.xy / (abs(direction.x) + abs(direction.y) + abs(direction.z));
+    let folded = (1.0 - abs(p.yx)) * select(vec2f(-1.0), vec2f(1.0), p >= vec2f(0.0));
+    return 0.5 + 0.5 * select(p, folded, direction.z < 0.0);
+}
+
+fn dome_direction(place: vec2f) -> vec3f {
+    let p = 2.0 * place - 1.0;
+    let z = 1.0 - abs(p.x) - abs(p.y);
+    let folded = (1.0 - abs(p.yx)) * select(vec2f(-1.0), vec2f(1.0), p >= vec2f(0.0));
+    return normalize(vec3f(select(p, folded, z < 0.0), z));
+}
+
+// No cell reaches over so many of its sides.
+const APART = 3.0;
+
+// Where the values about a direction are kept.
+struct DomeCell {
+    // Of the block, in the list of pages.
+    page: u32,
+    // Of the first of the cell's corners, in the block.
+    corner: u32,
+    // The way across the cell and down.
+    part: vec2f,
+}
+
+// `up` is the observer's zenith and `horizon` the cosine of the horizon's angle with it: a cell that the horizon crosses
+// holds both sky and ground, so that from near it one looks up or down to the next.
+fn dome_cell(dome: Dome, direction: vec3f, up: vec3f, horizon: f32) -> DomeCell {
+    let mu = dot(direction, up);
+    let away = select(min(horizon - APART / f32(dome.cells) - mu, 0.0), max(horizon + APART / f32(dome.cells) - mu, 0.0), mu >= horizon);
+    let at = dome_place(direction + away * up) * f32(dome.cells);
+    let cell = min(vec2u(at), vec2u(dome.cells - 1u));
+    let block = cell / BLOCK_CELLS;
+    let inside = cell - block * BLOCK_CELLS;
+    return DomeCell(block.y * (dome.cells / BLOCK_CELLS) + block.x, inside.y * BLOCK_SIDE + inside.x, at - vec2f(cell));
+}
