@@ -11,6 +11,7 @@ mod clear;
 mod layers;
 mod light;
 mod maps;
+mod mitsuba;
 mod night;
 mod scenes;
 mod shapes;

@@ -2,6 +2,7 @@
 //! against what can be known without computing it.
 
 mod cover;
+mod grid;
 mod light;
 mod slab;
 
@@ -14,7 +15,7 @@ use crate::{
     uniforms::Part,
 };
 use serde_json::{Value, json};
-use welkin_scene::Scene;
+use welkin_scene::{Scene, assets::SceneAssets};
 use wgpu::BindingResource;
 
 /// A scene with those clouds and nothing else that is not usual.
@@ -39,10 +40,13 @@ struct Ready {
 
 impl Ready {
     fn new(gpu: &Gpu, passes: &mut CloudPasses, scene: &Scene) -> Self {
+        Self::with(gpu, passes, scene, &SceneAssets::default())
+    }
+
+    fn with(gpu: &Gpu, passes: &mut CloudPasses, scene: &Scene, assets: &SceneAssets) -> Self {
         let sky = CloudSky::new(scene).expect("the scene has clouds");
-        let assets = welkin_scene::assets::SceneAssets::default();
         Self {
-            textures: passes.textures(gpu, sky.clouds, &assets).unwrap(),
+            textures: passes.textures(gpu, sky.clouds, assets).unwrap(),
             clouds: Part::new(&sky.uniform(1.0)).upload(gpu, "clouds"),
         }
     }
