@@ -1,6 +1,6 @@
 """Renders the cloud of tests/oracles/cloud_scene.json by Mitsuba 3 and writes tests/oracles/cloud_radiance.json.
 
-    python3 -m venv venv && venv/bin/pip install mitsuba pillow
+    python3 -m venv venv && venv/bin/pip install mitsuba numpy pillow
     DRJIT_LIBLLVM_PATH=/path/to/libLLVM.so venv/bin/python tests/tools/cloud_oracle.py [SUN...] [--passes N]
 
 `volpath` follows every order of scattering through the lattice of tests/oracles/cloud_grid.png, with its values in the
@@ -53,7 +53,7 @@ def scene(document, extinction, sun):
     camera, cube = document["scene"]["camera"], document["cube"]
     at, ahead = np.array(camera["position_m"], dtype=float), unit(camera["direction"])
     place = mi.ScalarTransform4f().translate(cube["least_m"]).scale(cube["side_m"])
-    return mi.load_dict({
+    return {
         "type": "scene",
         "integrator": {"type": "volpath", "max_depth": MOST_ORDERS, "rr_depth": MOST_ORDERS, "hide_emitters": True},
         "sun": {"type": "directional", "direction": list(-unit(sun)), "irradiance": 1.0},
@@ -81,12 +81,32 @@ def scene(document, extinction, sun):
                 },
             },
         },
-    })
+    }
 
 
 def blocks(picture):
     side = FILM_PX // BLOCKS
     return picture.reshape(BLOCKS, side, BLOCKS, side).mean(axis=(1, 3))
+
+
+def rendered(things, passes):
+    """Means over the blocks, and their standard errors."""
+    lit = mi.load_dict(things)
+    found = np.array([blocks(np.array(mi.render(lit, seed=k))[..., 0]) for k in range(passes)])
+    return found.mean(axis=0), found.std(axis=0, ddof=1) / math.sqrt(passes)
+
+
+def transmittance(document, extinction):
+    """What comes through a black cloud before a white sky."""
+    things = scene(document, extinction, document["suns"]["high"])
+    things["sun"] = {"type": "constant", "radiance": 1.0}
+    things["integrator"]["hide_emitters"] = False
+    things["cloud"]["interior"]["albedo"] = 0.0
+    return rendered(things, 16)[0]
+
+
+def rounded(rows, digits):
+    return [[float(f"{v:.{digits}g}") for v in row] for row in rows]
 
 
 def main():
@@ -102,21 +122,19 @@ def main():
     for name, sun in document["suns"].items():
         if arguments.suns and name not in arguments.suns:
             continue
-        lit = scene(document, extinction, sun)
-        passes = np.array([blocks(np.array(mi.render(lit, seed=k))[..., 0]) for k in range(arguments.passes)])
-        mean = passes.mean(axis=0)
-        error = passes.std(axis=0, ddof=1) / math.sqrt(len(passes))
+        mean, error = rendered(scene(document, extinction, sun), arguments.passes)
         print(f"{name}: mean {mean.mean():.5f}, standard error of bright blocks {np.median(error[mean > 0.02] / mean[mean > 0.02]):.4f}", flush=True)
         found[name] = {
-            "radiance_per_sr": [[float(f"{v:.5g}") for v in row] for row in mean],
-            "standard_error_per_sr": [[float(f"{v:.2g}") for v in row] for row in error],
+            "radiance_per_sr": rounded(mean, 4),
+            "standard_error_per_sr": rounded(error, 2),
         }
     rows = [f'"{name}":{json.dumps(found[name], separators=(",", ":"))}' for name in document["suns"] if name in found]
-    what = {
+    head = {
         "what": "Radiance of the cloud of cloud_scene.json for unit irradiance, means over squares of the picture, rows from the top",
         "by": f"Mitsuba {mi.__version__}, volpath, at most {MOST_ORDERS} orders, {SAMPLES} samples a pixel of {FILM_PX} x {FILM_PX} in each of {arguments.passes} passes",
+        "transmittance": rounded(transmittance(document, extinction), 4),
     }
-    text = ",\n".join(f'"{key}":{json.dumps(value)}' for key, value in what.items())
+    text = ",\n".join(f'"{key}":{json.dumps(value, separators=(",", ":"))}' for key, value in head.items())
     path.write_text("{" + text + ',\n"suns":{\n' + ",\n".join(rows) + "\n}}\n")
 
 

@@ -17,10 +17,21 @@ use welkin_scene::{Quality, Scene, assets::SceneAssets};
 
 /// The clouds before every pixel: what they add, and what they let through.
 fn look(gpu: &Gpu, scene: &Scene, size_px: UVec2) -> Vec<[f32; 4]> {
+    look_at(gpu, scene, &SceneAssets::default(), size_px, size_px)
+}
+
+/// The same of the upper left part of a picture.
+pub(super) fn look_at(
+    gpu: &Gpu,
+    scene: &Scene,
+    assets: &SceneAssets,
+    picture_px: UVec2,
+    size_px: UVec2,
+) -> Vec<[f32; 4]> {
     let tables = tables(gpu, scene, Quality::Final);
     let sky = CloudSky::new(scene).unwrap();
     let mut passes = passes(gpu);
-    let textures = passes.textures(gpu, sky.clouds, &SceneAssets::default()).unwrap();
+    let textures = passes.textures(gpu, sky.clouds, assets).unwrap();
     let view = Part::new(&ViewUniform::new(&scene.sun, &tables.stand));
     let light = CloudLight {
         stand: tables.stand,
@@ -28,7 +39,7 @@ fn look(gpu: &Gpu, scene: &Scene, size_px: UVec2) -> Vec<[f32; 4]> {
     };
     let mut recorder = Recorder::new(gpu);
     let scape = passes.scape(&mut recorder, &tables, (&sky, textures), light, Quality::Final);
-    let camera = Part::new(&CameraUniform::new(&scene.camera, size_px));
+    let camera = Part::new(&CameraUniform::new(&scene.camera, picture_px));
     let tile = TileUniform {
         origin_px: UVec2::ZERO,
         size_px,
