@@ -16,18 +16,7 @@ use serde_json::{Value, json};
 use welkin_scene::{Quality, Scene, assets::SceneAssets};
 
 /// The clouds before every pixel: what they add, and what they let through.
-fn look(gpu: &Gpu, scene: &Scene, size_px: UVec2) -> Vec<[f32; 4]> {
-    look_at(gpu, scene, &SceneAssets::default(), size_px, size_px)
-}
-
-/// The same of the upper left part of a picture.
-pub(super) fn look_at(
-    gpu: &Gpu,
-    scene: &Scene,
-    assets: &SceneAssets,
-    picture_px: UVec2,
-    size_px: UVec2,
-) -> Vec<[f32; 4]> {
+pub(super) fn look(gpu: &Gpu, scene: &Scene, assets: &SceneAssets, size_px: UVec2) -> Vec<[f32; 4]> {
     let tables = tables(gpu, scene, Quality::Final);
     let sky = CloudSky::new(scene).unwrap();
     let mut passes = passes(gpu);
@@ -39,7 +28,7 @@ pub(super) fn look_at(
     };
     let mut recorder = Recorder::new(gpu);
     let scape = passes.scape(&mut recorder, &tables, (&sky, textures), light, Quality::Final);
-    let camera = Part::new(&CameraUniform::new(&scene.camera, picture_px));
+    let camera = Part::new(&CameraUniform::new(&scene.camera, size_px));
     let tile = TileUniform {
         origin_px: UVec2::ZERO,
         size_px,
@@ -86,7 +75,7 @@ fn an_even_slab_transmits_by_beers_law() {
         for extinction_per_m in [1e-4, 1e-3, 3e-3] {
             let scene = slab(extinction_per_m, camera.clone());
             let expected = (-extinction_per_m * way_m).exp();
-            let found = look(&engine.gpu, &scene, size);
+            let found = look(&engine.gpu, &scene, &SceneAssets::default(), size);
             let worst = found
                 .iter()
                 .map(|texel| (f64::from(texel[3]) / expected - 1.0).abs())
@@ -140,7 +129,7 @@ fn full_coverage_covers_the_whole_sky() {
             "projection": {"kind": "fisheye", "fov_deg": 178}}))
         .unwrap();
         let size = UVec2::new(48, 48);
-        let found = look(&engine.gpu, &scene, size);
+        let found = look(&engine.gpu, &scene, &SceneAssets::default(), size);
         let mut most: f32 = 0.0;
         let (mut pixels, mut open) = (0, 0);
         for (k, texel) in (0_u32..).zip(&found) {
