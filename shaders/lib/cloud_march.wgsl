@@ -3,7 +3,7 @@ import package::lib::aerial::aerial_to;
 import package::lib::air::Air;
 import package::lib::cloud::{CloudBand, band_extinction, clouds, sheet_optical_depth};
 import package::lib::cloud_light::{Lobes, ambient_source, lit_source};
-import package::lib::cloud_shade::{CloudShade, LightDepth, light_depth_within, shade_depth};
+import package::lib::cloud_shade::{CloudShade, LightDepth, light_cosine, light_depth_within, shade_depth};
 import package::lib::cloud_nodes::{NODE_SHARE, Nodes, with_node};
 import package::lib::geometry::{PI, altitude_after, cosine_after, distance_to_sphere, distance_to_top, shell_stretch};
 import package::lib::light::{View, scattered_radiance};
@@ -60,7 +60,7 @@ const WIDE = 3.0;
 // Within a cloud's bulk, where the detail noise has its edges, they are closer.
 const CLOSER = 1.5;
 // The light is found once for so many steps.
-const RESTS = 4.0;
+const RESTS = 8.0;
 // A cloud that stands apart counts by itself if it is more than this.
 const LEAST_APART = 0.05;
 // Over which way clouds fade, where they are asked to.
@@ -133,25 +133,41 @@ fn mixed(a: Surroundings, b: Surroundings, s: f32) -> Surroundings {
     return Surroundings(mix(a.sun, b.sun, s), mix(a.above, b.above, s), mix(a.below, b.below, s), mix(a.mu_s, b.mu_s, s));
 }
 
-// With so many steps the light's way is followed to its ends on both sides.
+// With so many steps the light's way is followed to its ends.
 const ALL_LIGHT_STEPS = 64u;
+// With fewer, over this share of the shape noise's scale. Within it density changes faster than the maps can hold, which
+// stand in texels and at eight heights.
+const REACH = 0.5;
 
-// Source function of a place in a band, W/m²/sr. Close to it the light's way is followed, the farther the more steps are
-// asked for; beyond, its optical depth stands in the maps of shadows.
+// Optical depth of a band from a place towards the light (`side` 1) or away from it (-1): followed close to the place,
+// and beyond as it stands in the maps of shadows.
+fn depth_beside(index: u32, band: CloudBand, p: vec3f, altitude_m: f32, mu_s: f32, side: f32) -> f32 {
+    let towards = side * view.sun;
+    let cosine = side * light_cosine(mu_s);
+    let out_m = select(altitude_m - band.base_m, band.top_m - altitude_m, cosine > 0.0) / abs(cosine);
+    let all = clouds.light_steps >= ALL_LIGHT_STEPS;
+    let reach_m = min(out_m, select(REACH / clouds.base_inverse_scale_per_m, out_m, all));
+    var depth = depth_within(band, p, altitude_m, towards, side * mu_s, clouds.light_steps, reach_m);
+    for (var beyond = reach_m < out_m; beyond; beyond = false) {
+        let there_m = altitude_after(clouds.radius_m, altitude_m, side * mu_s, reach_m);
+        let there = light_depth(index, band, p + reach_m * towards, there_m, mu_s);
+        depth += select(there.behind, there.before, side > 0.0);
+    }
+    return depth;
+}
+
+// Source function of a place in a band, W/m²/sr. With no steps on the light's way its optical depth is that of the maps.
 fn source_at(index: u32, p: vec3f, altitude_m: f32, extinction_per_m: f32, around: Surroundings, lobes: Lobes) -> vec3f {
     let band = clouds.bands[index];
     let mu_s = around.mu_s;
     let thickness = band.top_m - band.base_m;
-    var way = light_depth(index, band, p, altitude_m, mu_s);
+    var way: LightDepth;
+    for (var far = clouds.light_steps == 0u; far; far = false) {
+        way = light_depth(index, band, p, altitude_m, mu_s);
+    }
     for (var close = clouds.light_steps > 0u; close; close = false) {
-        let reach_m = f32(clouds.light_steps) / f32(ALL_LIGHT_STEPS) * min(thickness / max(abs(mu_s), 0.05), 12.0 * thickness);
-        let altitude_there_m = altitude_after(clouds.radius_m, altitude_m, mu_s, reach_m);
-        let there = light_depth(index, band, p + reach_m * view.sun, altitude_there_m, mu_s);
-        let inside = altitude_there_m > band.base_m && altitude_there_m < band.top_m;
-        way.before = depth_within(band, p, altitude_m, view.sun, mu_s, clouds.light_steps, reach_m) + select(0.0, there.before, inside);
-        for (var exact = clouds.light_steps >= ALL_LIGHT_STEPS; exact; exact = false) {
-            way.behind = depth_within(band, p, altitude_m, -view.sun, -mu_s, clouds.light_steps, reach_m);
-        }
+        way.before = depth_beside(index, band, p, altitude_m, mu_s, 1.0);
+        way.behind = depth_beside(index, band, p, altitude_m, mu_s, -1.0);
     }
     let over = shade_depth(shade, shade_maps, linear_clamp, clouds.radius_m, p, band.top_m, view.sun, mu_s);
     let h = clamp((altitude_m - band.base_m) / thickness, 0.0, 1.0);
@@ -197,7 +213,7 @@ fn march_band(index: u32, ray: CloudRay, start_m: f32, stop_m: f32, left_before:
     var first_m = -1.0;
     // Of what is seen, what no light has been found for yet: the share, where it stands and its extinction by that share.
     var pending = vec3f(0.0);
-    let rests = u32(max(RESTS / clouds.fineness, 1.0));
+    let rests = u32(max(RESTS / max(clouds.fineness, 1.0), 1.0));
     let most = u32(f32(MOST_STEPS) * max(clouds.fineness, 0.25));
     for (var k = 0u; k < most; k++) {
         let ends = t >= stop_m || seen.left * left_before <= OPAQUE || k + 1u == most;

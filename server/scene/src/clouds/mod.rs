@@ -70,7 +70,8 @@ pub struct Clouds {
     /// Darkens thin edges that are seen with the sun behind the observer (Schneider 2015): 0 not, 1 fully.
     #[schemars(range(min = 0.0, max = 1.0))]
     pub powder: f64,
-    /// Orders of scattering that are followed, each weaker, wider and deeper than the one before (Wrenninge 2013).
+    /// Orders of scattering by small angles whose lobes are followed, each wider than the one before; the light of higher
+    /// orders is even.
     #[serde(deserialize_with = "whole")]
     #[schemars(range(min = 1, max = 8))]
     pub octaves: u32,
@@ -78,7 +79,9 @@ pub struct Clouds {
     #[serde(deserialize_with = "whole")]
     #[schemars(range(min = 16, max = 1024))]
     pub steps: u32,
-    /// Steps along a ray to the sun.
+    /// Steps on the light's way through the clouds about a place, towards the light and away from it, over half of the
+    /// shape noise's scale; what lies beyond is in coarser maps, and 64 steps leave nothing to them. Final frames only:
+    /// previews take all of it from the maps.
     #[serde(deserialize_with = "whole")]
     #[schemars(range(min = 1, max = 64))]
     pub light_steps: u32,
