@@ -82,7 +82,7 @@ fn any_clouds() -> impl Strategy<Value = Value> {
         0.0..1.0_f64,
         0.0..1.0_f64,
         0.0..1.0_f64,
-        1..16_u32,
+        1..9_u32,
         1..12_u32,
     );
     let kinds = (

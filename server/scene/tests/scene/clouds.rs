@@ -162,7 +162,7 @@ prop_compose! {
         (extinction_per_m, albedo) in (0.0..=1.0, 0.0..=1.0),
         (sun_factor, ambient_factor) in (0.0..=10.0, 0.0..=10.0),
         (sun_colour, base_colour) in (array::uniform3(0.0..=1.0), array::uniform3(0.0..=1.0)),
-        (powder, octaves) in (0.0..=1.0, 1_u32..=16),
+        (powder, octaves) in (0.0..=1.0, 1_u32..=8),
         (steps, light_steps) in (16_u32..=1024, 1_u32..=64),
         (shadows, haze) in (any::<bool>(), 0.0..=1.0),
     ) -> Clouds {
