@@ -11,6 +11,9 @@ import package::lib::view_ray::Observer;
 // Three vectors a corner, as `Nodes` has them.
 @group(0) @binding(21) var<storage, read_write> nodes: array<vec4f>;
 
+// Angle of a cell on the average, times their number to a side: √(4π).
+const CELL = 3.545;
+
 // Interleaved gradient noise (Jimenez 2014): even over every 3×3 corners.
 fn jitter_of(corner: vec2f) -> f32 {
     return fract(52.9829189 * fract(dot(corner, vec2f(0.06711056, 0.00583715))));
@@ -24,7 +27,7 @@ fn cloud_dome(@builtin(global_invocation_id) id: vec3u) {
     let block = blocks[id.y];
     let corner = block.xy * BLOCK_CELLS + vec2u(id.x % BLOCK_SIDE, id.x / BLOCK_SIDE);
     let direction = dome_direction(vec2f(corner) / f32(dome.cells));
-    march_clouds(cloud_ray(observer, direction, jitter_of(vec2f(corner))));
+    march_clouds(cloud_ray(observer, direction, jitter_of(vec2f(corner)), CELL / f32(dome.cells)));
     let at = 3u * (block.z * BLOCK_CORNERS + id.x);
     nodes[at] = noted.distance_m;
     nodes[at + 1u] = noted.share;

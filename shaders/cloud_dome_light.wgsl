@@ -27,7 +27,7 @@ fn cloud_dome_light(@builtin(global_invocation_id) id: vec3u) {
     }
     let block = blocks[id.y];
     let corner = block.xy * BLOCK_CELLS + vec2u(id.x % BLOCK_SIDE, id.x / BLOCK_SIDE);
-    let ray = cloud_ray(observer, dome_direction(vec2f(corner) / f32(dome.cells)), 0.5);
+    let ray = cloud_ray(observer, dome_direction(vec2f(corner) / f32(dome.cells)), 0.5, 0.0);
     let at = block.z * BLOCK_CORNERS + id.x;
     let distances_m = nodes[3u * at];
     let shares = nodes[3u * at + 1u];

@@ -14,6 +14,6 @@ fn cloud_probe(@builtin(global_invocation_id) id: vec3u) {
         return;
     }
     // The middle of each step: an answer stands alone, no neighbour averages it.
-    let seen = march_clouds(cloud_ray(observer, directions[id.x].xyz, 0.5));
+    let seen = march_clouds(cloud_ray(observer, directions[id.x].xyz, 0.5, 0.0));
     answers[id.x] = vec4f(seen.light, seen.left);
 }

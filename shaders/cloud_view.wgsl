@@ -33,7 +33,7 @@ fn cloud_view(@builtin(global_invocation_id) id: vec3u) {
     var value = vec4f(0.0, 0.0, 0.0, 1.0);
     if sight.seen {
         let jitter = jitter_of(vec2f(tile.origin_px + id.xy));
-        let ray = cloud_ray(observer, sight.direction, jitter);
+        let ray = cloud_ray(observer, sight.direction, jitter, 0.0);
         let seen = march_clouds(ray);
         value = vec4f(seen.light, seen.left);
     }

@@ -23,6 +23,8 @@ struct CloudBand {
     count: u32,
     // Of the thinnest layer.
     thickness_m: f32,
+    // 0 for a deck, 1 for heaps that lose light at their sides.
+    leak: f32,
 }
 
 // A layer that is thin against all distances.

@@ -1,7 +1,7 @@
 // Light along a ray through the clouds. Whoever imports from here binds what `lib/cloud.wgsl` names, and then this.
 import package::lib::aerial::aerial_to;
 import package::lib::air::Air;
-import package::lib::cloud::{CloudBand, band_extinction, clouds, sheet_optical_depth};
+import package::lib::cloud::{CloudBand, CloudSheet, band_extinction, clouds, sheet_optical_depth};
 import package::lib::cloud_light::{Lobes, ambient_source, lit_source};
 import package::lib::cloud_shade::{CloudShade, LightDepth, light_cosine, light_depth_within, shade_depth};
 import package::lib::cloud_nodes::{NODE_SHARE, Nodes, with_node};
@@ -47,6 +47,8 @@ struct CloudRay {
     air_length_m: f32,
     // Even over 0 to 1, from pixel to pixel.
     jitter: f32,
+    // Angle that it stands for.
+    spread: f32,
     lobes: Lobes,
 }
 
@@ -174,7 +176,7 @@ fn source_at(index: u32, p: vec3f, altitude_m: f32, extinction_per_m: f32, aroun
     // Even light comes by the shortest way out, not straight up: a share of the thickness on either side.
     let up = 0.5 * extinction_per_m * (1.0 - h) * thickness;
     let down = 0.5 * extinction_per_m * h * thickness;
-    let direct = around.sun * exp(-over) * lit_source(lobes, way.before, way.behind);
+    let direct = around.sun * exp(-over) * lit_source(lobes, way.before, way.behind, band.leak);
     return clouds.albedo * (direct + around.above * ambient_source(up, down) + around.below * ambient_source(down, up));
 }
 
@@ -284,23 +286,43 @@ fn sheet_source(index: u32, p: vec3f, depth: f32, lobes: Lobes) -> vec3f {
     let over = shade_depth(shade, shade_maps, linear_clamp, clouds.radius_m, p, sheet.height_m + 1.0, view.sun, around.mu_s);
     // Half the way in, towards the light.
     let before = 0.5 * depth / max(abs(around.mu_s), 0.05);
-    let direct = around.sun * exp(-over) * lit_source(lobes, before, before);
+    let direct = around.sun * exp(-over) * lit_source(lobes, before, before, 0.0);
     let even = (around.above + around.below) * ambient_source(0.5 * depth, 0.5 * depth);
     return clouds.albedo * (direct + even);
+}
+
+// Places along each side of what a ray stands for, at which a sheet is looked at where nothing else evens it out.
+const SHEET_PLACES = 3;
+
+fn sheet_left(sheet: CloudSheet, p: vec3f, up: vec3f, ray: CloudRay, t: f32) -> f32 {
+    let mu = max(abs(dot(up, ray.direction)), 0.02);
+    if !NODES {
+        return exp(-sheet_optical_depth(sheet, p, sheet.height_m) / mu);
+    }
+    let level = ray.direction - dot(up, ray.direction) * up;
+    let along = level / max(length(level), 1e-3);
+    let across = cross(up, along);
+    var sum = 0.0;
+    for (var k = 0; k < SHEET_PLACES * SHEET_PLACES; k++) {
+        let off = (vec2f(f32(k % SHEET_PLACES), f32(k / SHEET_PLACES)) + 0.5) / f32(SHEET_PLACES) - 0.5;
+        let place = p + t * ray.spread * (off.x / mu * along + off.y * across);
+        sum += exp(-sheet_optical_depth(sheet, place, sheet.height_m) / mu);
+    }
+    return sum / f32(SHEET_PLACES * SHEET_PLACES);
 }
 
 fn sheet_seen(index: u32, ray: CloudRay, t: f32, left_before: f32) -> BandSeen {
     let sheet = clouds.sheets[index];
     let p = place_at(t, ray.direction);
     let up = normalize(p + vec3f(0.0, 0.0, clouds.radius_m));
-    let depth = sheet_optical_depth(sheet, p, sheet.height_m);
-    let left = exp(-depth / max(abs(dot(up, ray.direction)), 0.02));
+    let left = sheet_left(sheet, p, up, ray, t);
     if NODES {
         if left < 1.0 {
-            note(left_before * (1.0 - left), t, FIRST_SHEET + index, depth);
+            note(left_before * (1.0 - left), t, FIRST_SHEET + index, 0.0);
         }
         return BandSeen(vec3f(0.0), left, t);
     }
+    let depth = sheet_optical_depth(sheet, p, sheet.height_m);
     return BandSeen((1.0 - left) * sheet_source(index, p, depth, ray.lobes), left, t);
 }
 

@@ -5,7 +5,7 @@ struct Nodes {
     distance_m: vec4f,
     // Of all that is seen.
     share: vec4f,
-    // Number of the band, or 8 and more of the sheet, plus e/(1+e) of the extinction e in 1/m.
+    // Number of the band, or 8 and more of the sheet, plus e/(1+e) of the band's extinction e in 1/m.
     kind: vec4f,
 }
 

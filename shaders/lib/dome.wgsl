@@ -29,7 +29,7 @@ fn dome_direction(place: vec2f) -> vec3f {
 }
 
 // No cell reaches over so many of its sides.
-const APART = 3.0;
+const APART = 6.0;
 
 // Where the values about a direction are kept.
 struct DomeCell {

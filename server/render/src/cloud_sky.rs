@@ -30,6 +30,13 @@ fn lost(cloud_type: Option<f64>) -> f64 {
     (0.335 - 0.15 * (cloud_type.unwrap_or(0.65) - 0.5)).min(0.335)
 }
 
+/// How far a layer is heaps, which lose light at their sides, and not a deck.
+fn leak(cloud_type: Option<f64>, coverage: f64) -> f32 {
+    let heaped = cloud_type.map_or(0.65, |t| (2.0 * t - 1.0).clamp(0.0, 1.0));
+    let x = ((coverage - 0.85) / 0.15).clamp(0.0, 1.0);
+    narrow(heaped * (1.0 - x * x * (3.0 - 2.0 * x)))
+}
+
 /// The coverage that the threshold needs for clouds to cover that share of the sky. The range of the weather over which
 /// they thin out is `rim`; `lost` of it is not seen; and at either end nothing or everything must be left.
 fn covering(share: f64, rim: f64, lost: f64) -> f64 {
@@ -109,6 +116,7 @@ impl<'a> CloudSky<'a> {
                     band.top_m = band.top_m.max(narrow(volume.top_m));
                     band.count += 1;
                     band.thickness_m = band.thickness_m.min(thickness_m);
+                    band.leak = band.leak.max(leak(volume.cloud_type, *coverage));
                 }
                 None => bands.push(BandUniform {
                     base_m: layer.base_m,
@@ -116,6 +124,7 @@ impl<'a> CloudSky<'a> {
                     first: at,
                     count: 1,
                     thickness_m,
+                    leak: leak(volume.cloud_type, *coverage),
                 }),
             }
         }

@@ -27,6 +27,7 @@ pub(crate) struct BandUniform {
     pub(crate) first: u32,
     pub(crate) count: u32,
     pub(crate) thickness_m: f32,
+    pub(crate) leak: f32,
 }
 
 /// `CloudSheet` of `lib/cloud.wgsl`.

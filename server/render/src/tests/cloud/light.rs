@@ -135,7 +135,7 @@ fn pairs() -> Vec<[f32; 8]> {
 #[test]
 fn light_in_a_slab_is_the_solution_of_diffusion() {
     let engine = engine();
-    let statement = "x = 4.0 * PI * vec4f(lit_source(forward_lobes(0.3), a.x, a.y).x, ambient_source(a.x, a.y).x, 0.0, 0.0);";
+    let statement = "x = 4.0 * PI * vec4f(lit_source(forward_lobes(0.3), a.x, a.y, 0.0).x, ambient_source(a.x, a.y).x, 0.0, 0.0);";
     let rows = pairs();
     for (row, found) in rows.iter().zip(with(&engine.gpu, &plain(), statement, &rows)) {
         let (before, behind) = (f64::from(row[0]), f64::from(row[1]));
@@ -188,7 +188,7 @@ fn a_thin_cloud_scatters_what_it_takes() {
         let found = with(
             &engine.gpu,
             &clouds,
-            "x.x = lit_source(forward_lobes(a.x), a.y, a.z).x;",
+            "x.x = lit_source(forward_lobes(a.x), a.y, a.z, 0.0).x;",
             &rows,
         );
         let sum: f64 = nodes

@@ -56,6 +56,7 @@ impl Filled {
                 first: u32,
                 count: u32,
                 thickness_m: f32,
+                leak: f32,
             })
         })
     }
