@@ -116,11 +116,19 @@ pub(crate) fn dome_place(direction: DVec3) -> DVec2 {
     0.5 + 0.5 * folded
 }
 
+#[allow(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "of cells or blocks, of which there are few"
+)]
+const fn whole(value: f64) -> u32 {
+    value as u32
+}
+
 /// Cells to a side, so that they are about as large as four pixels, which span that angle each.
 fn cells_for(pixel_angle: f64) -> u32 {
-    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "clamped")]
-    let cells = (1.0 / pixel_angle).clamp(f64::from(*CELLS.start()), f64::from(*CELLS.end())) as u32;
-    cells.next_multiple_of(2 * BLOCK_CELLS)
+    let cells = (1.0 / pixel_angle).clamp(f64::from(*CELLS.start()), f64::from(*CELLS.end()));
+    whole(cells).next_multiple_of(2 * BLOCK_CELLS)
 }
 
 /// The blocks that a picture looks at.
@@ -135,7 +143,7 @@ fn blocks_before(lens: &Lens, size_px: UVec2, cells: u32) -> Vec<UVec2> {
                 continue;
             };
             let at = dome_place(direction) * f64::from(cells);
-            let bound = |v: f64| (v.clamp(0.0, f64::from(cells - 1)) / f64::from(BLOCK_CELLS)) as u32;
+            let bound = |v: f64| whole(v.clamp(0.0, f64::from(cells - 1)) / f64::from(BLOCK_CELLS));
             for row in bound(at.y - REACH_CELLS)..=bound(at.y + REACH_CELLS) {
                 for column in bound(at.x - REACH_CELLS)..=bound(at.x + REACH_CELLS) {
                     there[(row * side + column) as usize] = true;

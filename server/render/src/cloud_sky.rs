@@ -22,6 +22,9 @@ const SHADE_REACH_M: f64 = 120_000.0;
 /// Of a volume layer's optical depth, what a column of it has on average where there is cloud.
 const MEAN_FILLING: f64 = 0.2;
 
+/// A preview takes that many times fewer steps towards the light.
+const PREVIEW_LIGHT: u32 = 12;
+
 /// `RIM` of `lib/cloud.wgsl`.
 const RIM: f64 = 0.5;
 /// Of the weather's range, what the noise takes from the rims of clouds on average: more of flat ones. As counted over
@@ -30,9 +33,9 @@ fn lost(cloud_type: Option<f64>) -> f64 {
     (0.335 - 0.15 * (cloud_type.unwrap_or(0.65) - 0.5)).min(0.335)
 }
 
-/// How far a layer is heaps, which lose light at their sides, and not a deck.
+/// How far a layer is heaps, which lose light at their sides, and not a deck: all of it from cumulus on, whose type is 0.8.
 fn leak(cloud_type: Option<f64>, coverage: f64) -> f32 {
-    let heaped = cloud_type.map_or(0.65, |t| (2.0 * t - 1.0).clamp(0.0, 1.0));
+    let heaped = cloud_type.map_or(0.65, |t| ((t - 0.5) / 0.3).clamp(0.0, 1.0));
     let x = ((coverage - 0.85) / 0.15).clamp(0.0, 1.0);
     narrow(heaped * (1.0 - x * x * (3.0 - 2.0 * x)))
 }
@@ -211,7 +214,11 @@ impl<'a> CloudSky<'a> {
             ambient_factor: narrow(clouds.ambient_factor),
             powder: narrow(clouds.powder),
             octaves: clouds.octaves,
-            light_steps: if fineness < 1.0 { 0 } else { clouds.light_steps },
+            light_steps: if fineness < 1.0 {
+                clouds.light_steps / PREVIEW_LIGHT
+            } else {
+                clouds.light_steps
+            },
             haze: narrow(clouds.haze),
         }
     }

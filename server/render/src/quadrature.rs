@@ -29,10 +29,10 @@ pub(crate) const CLEAR: Fineness = Fineness {
     turn: 0.0,
 };
 
-/// For clouds, which have edges: as many again each way, and no two rings alike (the golden ratio).
+/// For clouds, which have edges: three times as many, and no two rings alike (the golden ratio).
 pub(crate) const CLOUDED: Fineness = Fineness {
-    polar: 32,
-    azimuths: 96,
+    polar: 48,
+    azimuths: 144,
     turn: 0.618_033_988_749_895,
 };
 

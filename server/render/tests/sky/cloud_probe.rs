@@ -88,7 +88,7 @@ fn the_probe_is_a_final_frame_without_jitter() {
     }
 }
 
-/// Clouds have edges, and 9216 nodes over the sphere miss some of what a map of 2^17 pixels shows.
+/// Clouds have edges, and 20736 nodes over the sphere miss some of what a map of 2^17 pixels shows.
 #[test]
 fn the_probes_sums_hold_under_clouds() {
     for (name, scene) in [
