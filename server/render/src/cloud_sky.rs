@@ -22,9 +22,6 @@ const SHADE_REACH_M: f64 = 120_000.0;
 /// Of a volume layer's optical depth, what a column of it has on average where there is cloud.
 const MEAN_FILLING: f64 = 0.2;
 
-/// A preview takes that many times fewer steps towards the light.
-const PREVIEW_LIGHT: u32 = 12;
-
 /// `RIM` of `lib/cloud.wgsl`.
 const RIM: f64 = 0.5;
 /// Of the weather's range, what the noise takes from the rims of clouds on average: more of flat ones. As counted over
@@ -214,11 +211,7 @@ impl<'a> CloudSky<'a> {
             ambient_factor: narrow(clouds.ambient_factor),
             powder: narrow(clouds.powder),
             octaves: clouds.octaves,
-            light_steps: if fineness < 1.0 {
-                clouds.light_steps / PREVIEW_LIGHT
-            } else {
-                clouds.light_steps
-            },
+            light_steps: if fineness < 1.0 { 0 } else { clouds.light_steps },
             haze: narrow(clouds.haze),
         }
     }
