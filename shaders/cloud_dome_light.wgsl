@@ -1,7 +1,8 @@
 // The light of the clouds that are seen in the directions of some blocks of the dome.
 import package::lib::cloud::{clouds, sheet_optical_depth};
-import package::lib::cloud_march::{
-    AirBefore, FIRST_SHEET, OPAQUE, Surroundings, air_before, place_at, sheet_source, source_at, surroundings, unlit_air, view,
+import package::lib::cloud_march::{FIRST_SHEET, OPAQUE};
+import package::lib::cloud_source::{
+    AirBefore, Surroundings, air_before, place_at, sheet_source, source_at, surroundings, unlit_air, view,
 };
 import package::lib::cloud_ray::cloud_ray;
 import package::lib::dome::{BLOCK_CORNERS, BLOCK_CELLS, BLOCK_SIDE, Dome, dome_direction};

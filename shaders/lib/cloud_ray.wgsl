@@ -1,6 +1,6 @@
-// The ray through the clouds in one direction. Whoever imports from here binds what `lib/cloud_march.wgsl` names.
+// The ray through the clouds in one direction. Whoever imports from here binds what `lib/cloud_source.wgsl` names.
 import package::lib::cloud_light::forward_lobes;
-import package::lib::cloud_march::{CloudRay, air, view};
+import package::lib::cloud_source::{CloudRay, air, view};
 import package::lib::geometry::{angle_of_cosine, distance_to_sphere};
 import package::lib::source::cosine_of_azimuth;
 import package::lib::view_ray::{Observer, enter_air};

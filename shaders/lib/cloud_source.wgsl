@@ -1,0 +1,179 @@
+// The light of a place in the clouds, and the air before it. Whoever imports from here binds what `lib/cloud.wgsl` names, and
+// then this.
+import package::lib::aerial::aerial_to;
+import package::lib::air::Air;
+import package::lib::cloud::{CloudBand, band_extinction, clouds};
+import package::lib::cloud_light::{Lobes, ambient_source, lit_source};
+import package::lib::cloud_shade::{CloudShade, LightDepth, light_cosine, light_depth_within, shade_depth};
+import package::lib::geometry::{altitude_after, distance_to_top};
+import package::lib::light::{View, scattered_radiance};
+import package::lib::tables::{SkyViewRay, light_from_table, sun_cosine_unit, unit_to_coordinate};
+import package::lib::transmittance::transmittance_to_space;
+
+@group(0) @binding(8) var<uniform> air: Air;
+// The light that counts: the sun, or at night the moon.
+@group(0) @binding(9) var<uniform> view: View;
+@group(0) @binding(10) var<uniform> shade: CloudShade;
+@group(0) @binding(11) var linear_clamp: sampler;
+@group(0) @binding(12) var transmittance_table: texture_2d<f32>;
+@group(0) @binding(13) var irradiance_table: texture_2d<f32>;
+@group(0) @binding(14) var aerial_rayleigh: texture_3d<f32>;
+@group(0) @binding(15) var aerial_mie: texture_3d<f32>;
+@group(0) @binding(16) var aerial_multiple: texture_3d<f32>;
+@group(0) @binding(17) var shade_maps: texture_2d_array<f32>;
+
+struct CloudRay {
+    direction: vec3f,
+    mu: f32,
+    // With the light.
+    nu: f32,
+    azimuth: f32,
+    zenith_angle: f32,
+    ground: bool,
+    // To the ground, or farther than anything.
+    end_m: f32,
+    // The stretch in the air.
+    air_from_m: f32,
+    air_length_m: f32,
+    // Even over 0 to 1, from pixel to pixel.
+    jitter: f32,
+    // Angle that it stands for.
+    spread: f32,
+    lobes: Lobes,
+}
+
+fn place_at(t: f32, direction: vec3f) -> vec3f {
+    return clouds.place_m + t * direction;
+}
+
+// Light in the air up to a distance, and what the air lets through.
+struct AirBefore {
+    single: vec3f,
+    multiple: vec3f,
+    left: vec3f,
+}
+
+fn air_before(ray: CloudRay, t: f32) -> AirBefore {
+    let way_m = clamp(t - ray.air_from_m, 0.0, ray.air_length_m);
+    let sky_ray = SkyViewRay(ray.azimuth, ray.zenith_angle, ray.ground, ray.end_m);
+    let light = aerial_to(air, aerial_rayleigh, aerial_mie, aerial_multiple, linear_clamp, view.altitude_m, sky_ray, way_m, ray.air_length_m);
+    let all = scattered_radiance(air, view, light, ray.nu);
+    let multiple = view.sun_irradiance * light.multiple;
+    return AirBefore(all - multiple, multiple, exp(-light.optical_depth));
+}
+
+// Optical depth of a band from a place on, that way; steps grow with the square.
+fn depth_within(band: CloudBand, p: vec3f, altitude_m: f32, towards: vec3f, mu: f32, steps: u32, most_m: f32) -> f32 {
+    var sum = 0.0;
+    var near_m = 0.0;
+    for (var k = 1u; k <= steps; k++) {
+        let far = f32(k) / f32(steps);
+        let far_m = most_m * far * far;
+        let t = 0.5 * (near_m + far_m);
+        let h = altitude_after(clouds.radius_m, altitude_m, mu, t);
+        sum += band_extinction(band, p + t * towards, h, false, 0.0).value * (far_m - near_m);
+        near_m = far_m;
+    }
+    return sum;
+}
+
+// Light about a place of a cloud, W/m².
+struct Surroundings {
+    // Of the sun, through the air alone.
+    sun: vec3f,
+    // Of the whole sky on a level place, over the air below it; and of the ground and the air beneath.
+    above: vec3f,
+    below: vec3f,
+    // The light's cosine with the zenith.
+    mu_s: f32,
+}
+
+const AIR_SCALE_M = 8500.0;
+
+fn surroundings(p: vec3f, altitude_m: f32) -> Surroundings {
+    let mu_s = dot(normalize(p + vec3f(0.0, 0.0, clouds.radius_m)), view.sun);
+    let x = unit_to_coordinate(sun_cosine_unit(mu_s), textureDimensions(irradiance_table).x);
+    let sky = light_from_table(textureSampleLevel(irradiance_table, linear_clamp, vec2f(x, 0.5), 0.0).rgb);
+    let on_ground = max(mu_s, 0.0) * transmittance_to_space(air, transmittance_table, linear_clamp, 0.0, mu_s);
+    let here = transmittance_to_space(air, transmittance_table, linear_clamp, altitude_m, mu_s);
+    let above = exp(-altitude_m / AIR_SCALE_M);
+    let ground = air.ground_albedo * (shade.diffuse_left * (on_ground + sky));
+    let even = clouds.ambient_factor * view.sun_irradiance;
+    let sun = clouds.sun_factor * clouds.sun_colour * view.sun_irradiance * here;
+    return Surroundings(sun, even * sky * above, even * (ground + sky * (1.0 - above)), mu_s);
+}
+
+fn mixed(a: Surroundings, b: Surroundings, s: f32) -> Surroundings {
+    return Surroundings(mix(a.sun, b.sun, s), mix(a.above, b.above, s), mix(a.below, b.below, s), mix(a.mu_s, b.mu_s, s));
+}
+
+// With so many steps the light's way is followed to its ends.
+const ALL_LIGHT_STEPS = 64u;
+// With fewer, over this share of the shape noise's scale. Within it density changes faster than the maps can hold, which
+// stand in texels and at eight heights.
+const REACH = 0.5;
+
+// Optical depth of a band from a place towards the light (`side` 1) or away from it (-1): followed close to the place,
+// and beyond as it stands in the maps of shadows.
+fn depth_beside(index: u32, band: CloudBand, p: vec3f, altitude_m: f32, mu_s: f32, side: f32) -> f32 {
+    let towards = side * view.sun;
+    let cosine = side * light_cosine(mu_s);
+    let out_m = select(altitude_m - band.base_m, band.top_m - altitude_m, cosine > 0.0) / abs(cosine);
+    let all = clouds.light_steps >= ALL_LIGHT_STEPS;
+    let reach_m = min(out_m, select(REACH / clouds.base_inverse_scale_per_m, out_m, all));
+    var depth = depth_within(band, p, altitude_m, towards, side * mu_s, clouds.light_steps, reach_m);
+    for (var beyond = reach_m < out_m; beyond; beyond = false) {
+        let there_m = altitude_after(clouds.radius_m, altitude_m, side * mu_s, reach_m);
+        let there = light_depth(index, band, p + reach_m * towards, there_m, mu_s);
+        depth += select(there.behind, there.before, side > 0.0);
+    }
+    return depth;
+}
+
+// Source function of a place in a band, W/m²/sr. With no steps on the light's way its optical depth is that of the maps.
+fn source_at(index: u32, p: vec3f, altitude_m: f32, extinction_per_m: f32, around: Surroundings, lobes: Lobes) -> vec3f {
+    let band = clouds.bands[index];
+    let mu_s = around.mu_s;
+    let thickness = band.top_m - band.base_m;
+    var way: LightDepth;
+    for (var far = clouds.light_steps == 0u; far; far = false) {
+        way = light_depth(index, band, p, altitude_m, mu_s);
+    }
+    for (var close = clouds.light_steps > 0u; close; close = false) {
+        way.before = depth_beside(index, band, p, altitude_m, mu_s, 1.0);
+        way.behind = depth_beside(index, band, p, altitude_m, mu_s, -1.0);
+    }
+    let over = shade_depth(shade, shade_maps, linear_clamp, clouds.radius_m, p, band.top_m, view.sun, mu_s);
+    let h = clamp((altitude_m - band.base_m) / thickness, 0.0, 1.0);
+    // Even light comes by the shortest way out, not straight up: a share of the thickness on either side.
+    let up = 0.5 * extinction_per_m * (1.0 - h) * thickness;
+    let down = 0.5 * extinction_per_m * h * thickness;
+    let direct = around.sun * exp(-over) * lit_source(lobes, way.before, way.behind, band.leak);
+    return clouds.albedo * (direct + around.above * ambient_source(up, down) + around.below * ambient_source(down, up));
+}
+
+fn light_depth(index: u32, band: CloudBand, p: vec3f, altitude_m: f32, mu_s: f32) -> LightDepth {
+    return light_depth_within(shade, shade_maps, linear_clamp, index, band.base_m, band.top_m, clouds.radius_m, p, altitude_m, view.sun, mu_s);
+}
+
+// A thin layer: its light scattered once with the phase function, and the rest as a slab's.
+fn sheet_source(index: u32, p: vec3f, depth: f32, lobes: Lobes) -> vec3f {
+    let sheet = clouds.sheets[index];
+    let around = surroundings(p, sheet.height_m);
+    let over = shade_depth(shade, shade_maps, linear_clamp, clouds.radius_m, p, sheet.height_m + 1.0, view.sun, around.mu_s);
+    // Half the way in, towards the light.
+    let before = 0.5 * depth / max(abs(around.mu_s), 0.05);
+    let direct = around.sun * exp(-over) * lit_source(lobes, before, before, 0.0);
+    let even = (around.above + around.below) * ambient_source(0.5 * depth, 0.5 * depth);
+    return clouds.albedo * (direct + even);
+}
+
+// Under the clouds the air gets what they let through, on average: this is the light of clear air less that.
+fn unlit_air(ray: CloudRay) -> vec3f {
+    if view.altitude_m >= shade.base_m {
+        return vec3f(0.0);
+    }
+    let up_m = distance_to_top(clouds.radius_m, shade.base_m, view.altitude_m, ray.mu);
+    let under = air_before(ray, min(up_m, ray.end_m));
+    return (1.0 - shade.direct_left) * under.single + (1.0 - shade.diffuse_left) * under.multiple;
+}
