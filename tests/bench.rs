@@ -188,7 +188,8 @@ fn clouds_are_measured_by_what_changes_and_table_by_table() {
         for row in rows {
             // Without density there are no clouds to follow rays through.
             let seen = row["varied"]["density"] != json!(0.0);
-            let followed = ran(row, "cloud_view") || ran(row, "cloud_dome");
+            // The preset's own values have been seen before, under another sun.
+            let followed = ran(row, "cloud_view") || ran(row, "cloud_dome_light");
             assert_eq!(followed, seen, "{row}");
         }
     }
