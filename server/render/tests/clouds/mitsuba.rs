@@ -75,10 +75,11 @@ fn regions(radiance: &[f64], transmittance: &[f64]) -> [Vec<usize>; 3] {
 
 /// Welkin's brightness over Mitsuba's: least and most by region (lit, shaded, rim).
 ///
-/// The aim is 0.85 to 1.15. It is missed, always upwards and most in the shade: Welkin takes the cloud along the light's way
-/// for a slab without end, and a heap loses light at its sides. The least is the aim; where the aim is missed, the most is
-/// 8 % over what was reached. Mitsuba's standard error is 2 to 3 % of a square and under 1 % of a region's mean; the
-/// rest is for other steps and samples of the march.
+/// The aim is 0.85 to 1.15. It is missed in the shade under a high sun, which is too bright, and on the lit side of a low sun
+/// and of one behind the cloud, which are too dark: one number for how wide a heap is against its depth cannot serve all
+/// ways through it. Where the aim or its neighbourhood is missed, the bound stands up to 8 % beyond what was reached. Mitsuba's
+/// standard error is 2 to 3 % of a square and under 1 % of a region's mean; the rest is for other steps and samples of the
+/// march.
 const HELD: [(&str, [[f64; 2]; 3]); 4] = [
     // 1.02, 1.26, 1.12
     ("high", [[0.85, 1.15], [0.85, 1.36], [0.85, 1.21]]),
