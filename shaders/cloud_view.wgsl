@@ -10,6 +10,8 @@ override PROJECTION: u32 = 0u;
 struct Tile {
     origin_px: vec2u,
     size_px: vec2u,
+    // From one pixel of the tile to the next in the frame.
+    stride_px: u32,
 }
 
 @group(0) @binding(18) var<uniform> camera: Camera;
@@ -28,11 +30,11 @@ fn cloud_view(@builtin(global_invocation_id) id: vec3u) {
     if any(id.xy >= tile.size_px) {
         return;
     }
-    let pixel = vec2f(tile.origin_px + id.xy) + 0.5;
-    let sight = sight_at(camera, PROJECTION, pixel);
+    let pixel = vec2f(tile.origin_px + tile.stride_px * id.xy);
+    let sight = sight_at(camera, PROJECTION, pixel + 0.5);
     var value = vec4f(0.0, 0.0, 0.0, 1.0);
     if sight.seen {
-        let jitter = jitter_of(vec2f(tile.origin_px + id.xy));
+        let jitter = jitter_of(pixel);
         let ray = cloud_ray(observer, sight.direction, jitter, 0.0);
         let seen = march_clouds(ray);
         value = vec4f(seen.light, seen.left);

@@ -33,6 +33,8 @@ override DOME: bool = false;
 struct Tile {
     origin_px: vec2u,
     size_px: vec2u,
+    // From one pixel of the tile to the next in the frame; 1 but in stage 0.
+    stride_px: u32,
 }
 
 @group(0) @binding(3) var<uniform> tile: Tile;
@@ -67,8 +69,8 @@ fn clouds_towards(direction: vec3f) -> vec4f {
     return mix(top, bottom, cell.part.y);
 }
 
-// Before the clouds, if there are any. `pixel` counts from the tile's first.
-fn with_clouds(behind: vec3f, pixel: vec2u, direction: vec3f) -> vec3f {
+// Before the clouds, if there are any. `place` is the pixel's in the tile.
+fn with_clouds(behind: vec3f, place: vec2u, direction: vec3f) -> vec3f {
     if !CLOUDS {
         return behind;
     }
@@ -76,12 +78,13 @@ fn with_clouds(behind: vec3f, pixel: vec2u, direction: vec3f) -> vec3f {
     if DOME {
         clouds = clouds_towards(direction);
     } else {
-        clouds = textureLoad(cloud_table, pixel, 0);
+        clouds = textureLoad(cloud_table, place, 0);
     }
     return max(clouds.a * behind + clouds.rgb, vec3f(0.0));
 }
 
-// Some pixels of a row, which may share the light at the first and the last of SPAN from `first` on.
+// The tile's pixels from `begin` to `end` of a row, which may share the light at the first and the last of SPAN from
+// `first` on.
 fn write_run(first: vec2u, begin: u32, end: u32) {
     let row = vec2f(first) + 0.5;
     var even = false;
@@ -98,7 +101,9 @@ fn write_run(first: vec2u, begin: u32, end: u32) {
             at_last = light_towards(b.direction, mu_b, clamp(dot(b.direction, view.sun), -1.0, 1.0));
         }
     }
-    for (var k = begin; k < end; k++) {
+    let y = (first.y - tile.origin_px.y) / tile.stride_px;
+    var x = (first.x + begin - tile.origin_px.x) / tile.stride_px;
+    for (var k = begin; k < end; k += tile.stride_px) {
         let place = row + vec2f(f32(k), 0.0);
         let sight = sight_at(camera, PROJECTION, place);
         var value = vec4f(0.0);
@@ -116,28 +121,27 @@ fn write_run(first: vec2u, begin: u32, end: u32) {
             let nu = clamp(dot(sight.direction, view.sun), -1.0, 1.0);
             var light: Light;
             if even {
-                let x = f32(k) / f32(max(SPAN, 2u) - 1u);
-                light.rayleigh = mix(at_first.rayleigh, at_last.rayleigh, x);
-                light.mie = mix(at_first.mie, at_last.mie, x);
-                light.even = mix(at_first.even, at_last.even, x);
-                light.left = mix(at_first.left, at_last.left, x);
+                let part = f32(k) / f32(max(SPAN, 2u) - 1u);
+                light.rayleigh = mix(at_first.rayleigh, at_last.rayleigh, part);
+                light.mie = mix(at_first.mie, at_last.mie, part);
+                light.even = mix(at_first.even, at_last.even, part);
+                light.left = mix(at_first.left, at_last.left, part);
             } else {
                 light = light_towards(sight.direction, dot(sight.direction, view.up), nu);
             }
-            let pixel = first + vec2u(k, 0u) - tile.origin_px;
-            var seen = with_clouds(radiance_of(light, nu, select(disc, vec3f(0.0), DOME)), pixel, sight.direction);
+            var seen = with_clouds(radiance_of(light, nu, select(disc, vec3f(0.0), DOME)), vec2u(x, y), sight.direction);
             if DOME {
                 seen += light.left * disc;
             }
             value = vec4f(seen, 1.0 + angle_if_near(sight.direction, glaring()));
         }
-        let pixel = first + vec2u(k, 0u);
-        let i = (pixel.y - tile.origin_px.y) * tile.size_px.x + pixel.x - tile.origin_px.x;
+        let i = y * tile.size_px.x + x;
         if PICTURE {
-            picture[i] = picture_pixel(tone_settings, exposure.scale, CURVE, value, pixel);
+            picture[i] = picture_pixel(tone_settings, exposure.scale, CURVE, value, first + vec2u(k, 0u));
         } else {
             radiance[i] = value;
         }
+        x++;
     }
 }
 
@@ -254,15 +258,26 @@ fn write_block(id: vec2u) {
     }
 }
 
+// Runs lie on the whole frame, so that neither tiles nor strides leave a trace.
+fn write_own(id: vec2u) {
+    let first = vec2u(
+        tile.origin_px.x / SPAN * SPAN + id.x * max(SPAN, tile.stride_px),
+        tile.origin_px.y + id.y * tile.stride_px,
+    );
+    let edge = tile.origin_px.x + tile.size_px.x * tile.stride_px;
+    if first.x >= edge || id.y >= tile.size_px.y {
+        return;
+    }
+    // From the run's first pixel to the tile's own next one; where the run begins before the tile, to the tile.
+    let next = (tile.stride_px - (first.x - tile.origin_px.x) % tile.stride_px) % tile.stride_px;
+    let begin = select(next, tile.origin_px.x - first.x, first.x < tile.origin_px.x);
+    write_run(first, begin, min(SPAN, edge - first.x));
+}
+
 @compute @workgroup_size(8, 8)
 fn sky(@builtin(global_invocation_id) id: vec3u) {
     switch STAGE {
-        case 0u: {
-            let first = id.x * SPAN;
-            if first < tile.size_px.x && id.y < tile.size_px.y {
-                write_run(tile.origin_px + vec2u(first, id.y), 0u, min(SPAN, tile.size_px.x - first));
-            }
-        }
+        case 0u: { write_own(id.xy); }
         case 3u: { write_block(id.xy); }
         default: { write_place(id.xy); }
     }

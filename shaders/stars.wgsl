@@ -13,15 +13,17 @@ struct Glint {
 }
 
 struct Stretch {
-    // Of the list, the part in this tile.
+    // Of the list, the part from the tile's first pixel to its last.
     first: u32,
     count: u32,
-    // The tile's first pixel; tiles are whole rows or parts of one, so that pixels follow one another.
-    origin: u32,
+    frame_width: u32,
     // Rises from 0 to 1 as the stars come out.
     out: f32,
     // Of the tile.
-    width: u32,
+    origin_px: vec2u,
+    size_px: vec2u,
+    // From one pixel of the tile to the next in the frame.
+    stride_px: u32,
 }
 
 // True where there are clouds.
@@ -57,13 +59,18 @@ fn stars(@builtin(global_invocation_id) id: vec3u) {
         return;
     }
     let glint = glints[stretch.first + id.x];
+    // Those left of the tile wrap round and lie beyond its size.
+    let off = vec2u(glint.pixel % stretch.frame_width, glint.pixel / stretch.frame_width) - stretch.origin_px;
+    let place = off / stretch.stride_px;
+    if any(place * stretch.stride_px != off) || any(place >= stretch.size_px) {
+        return;
+    }
     let mu = dot(glint.direction, view.up);
     var left = light_left(air, transmittance_table, linear_clamp, view.altitude_m, mu);
-    let pixel = glint.pixel - stretch.origin;
     if DOME {
         left *= left_towards(glint.direction);
     } else if CLOUDS {
-        left *= textureLoad(cloud_table, vec2u(pixel % stretch.width, pixel / stretch.width), 0).a;
+        left *= textureLoad(cloud_table, place, 0).a;
     }
-    radiance[pixel] += vec4f(stretch.out * left * glint.radiance, 0.0);
+    radiance[place.y * stretch.size_px.x + place.x] += vec4f(stretch.out * left * glint.radiance, 0.0);
 }

@@ -15,5 +15,5 @@ fn tone(@builtin(global_invocation_id) id: vec3u) {
         return;
     }
     let i = id.y * tone_settings.size_px.x + id.x;
-    picture[i] = picture_pixel(tone_settings, exposure.scale, CURVE, radiance[i], tone_settings.origin_px + id.xy);
+    picture[i] = picture_pixel(tone_settings, exposure.scale, CURVE, radiance[i], tone_settings.origin_px + tone_settings.stride_px * id.xy);
 }

@@ -16,6 +16,8 @@ struct Tone {
     glare: f32,
     // Irradiance of the visible disc at the observer, behind clouds: the sun's or the moon's.
     glaring_irradiance: vec3f,
+    // From one pixel of the tile to the next in the frame.
+    stride_px: u32,
     origin_px: vec2u,
     size_px: vec2u,
 }

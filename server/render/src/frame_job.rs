@@ -1,14 +1,18 @@
 //! One frame, tile by tile.
 
 use crate::{
+    area::Area,
     engine::{Engine, facts},
     error::Error,
     prepared::Prepared,
     uniforms::TileUniform,
 };
 use glam::UVec2;
-use std::{sync::Arc, time::Instant};
-use welkin_scene::renderer::{Frame, FrameOrder, Output, PassTime, Pixels};
+use std::{collections::VecDeque, ops::Range, sync::Arc, time::Instant};
+use welkin_scene::{
+    Quality,
+    renderer::{Frame, FrameOrder, OnPass, Output, PassTime, Pixels, Refined},
+};
 
 #[cfg(test)]
 mod tests;
@@ -21,7 +25,7 @@ pub(crate) struct TileBudget {
 }
 
 /// A tile should take about this long, milliseconds.
-const TILE_MS: std::ops::Range<f64> = 8.0..30.0;
+const TILE_MS: Range<f64> = 8.0..30.0;
 /// Sizes between which the budget moves, pixels. The largest keeps 24 MiB of radiance on the device.
 const TILE_PIXELS: std::ops::RangeInclusive<u32> = 1 << 13..=3 << 18;
 
@@ -31,6 +35,9 @@ pub(crate) const RUN: u32 = 8;
 /// Fewer would leave a device's lanes idle.
 const LEAST_PIXELS: u32 = 64;
 
+/// A frame of no more tiles is not refined in passes: it takes a sixth of a second at most.
+const QUICK_TILES: u64 = 5;
+
 impl Default for TileBudget {
     fn default() -> Self {
         Self { pixels: 1 << 18 }
@@ -38,9 +45,14 @@ impl Default for TileBudget {
 }
 
 impl TileBudget {
-    fn learn(&mut self, tile: TileUniform, work_per_pixel: u32, ms: f64) {
+    #[cfg(test)]
+    pub(crate) const fn of(pixels: u32) -> Self {
+        Self { pixels }
+    }
+
+    fn learn(&mut self, tile_px: UVec2, work_per_pixel: u32, ms: f64) {
         // A tile that the frame's edge cut short says nothing of larger ones.
-        let full = tile.size_px.x * tile.size_px.y > self.pixels / work_per_pixel / 2;
+        let full = tile_px.x * tile_px.y > self.pixels / work_per_pixel / 2;
         if ms > TILE_MS.end {
             self.pixels = (self.pixels / 2).max(*TILE_PIXELS.start());
         } else if ms < TILE_MS.start && full {
@@ -48,8 +60,13 @@ impl TileBudget {
         }
     }
 
-    /// The next tile: as wide as fits, then as high.
-    fn next(&self, from: UVec2, frame: UVec2, work_per_pixel: u32) -> TileUniform {
+    fn is_quick(&self, frame: UVec2, work_per_pixel: u32) -> bool {
+        let work = u64::from(frame.x) * u64::from(frame.y) * u64::from(work_per_pixel);
+        work <= QUICK_TILES * u64::from(self.pixels)
+    }
+
+    /// Pixels across and down of the next tile of an area: as wide as fits, then as high.
+    pub(crate) fn next(&self, from: UVec2, area: UVec2, work_per_pixel: u32) -> UVec2 {
         let pixels = (self.pixels / work_per_pixel).max(LEAST_PIXELS.min(self.pixels));
         // Pixels that share a thread share it in every tile, or the tile would show.
         let whole_runs = if pixels < RUN {
@@ -57,26 +74,27 @@ impl TileBudget {
         } else {
             pixels - pixels % RUN
         };
-        let width = (frame.x - from.x).min(whole_runs);
-        let height = if width == frame.x {
+        let width = (area.x - from.x).min(whole_runs);
+        let height = if width == area.x {
             let rows = pixels / width;
             let whole_runs = if rows < RUN { rows } else { rows - rows % RUN };
-            whole_runs.clamp(1, frame.y - from.y)
+            whole_runs.clamp(1, area.y - from.y)
         } else {
             1
         };
-        TileUniform {
-            origin_px: from,
-            size_px: UVec2::new(width, height),
-        }
+        UVec2::new(width, height)
     }
 }
 
 /// A frame on its way.
 pub(crate) struct FrameJob {
     order: FrameOrder,
+    /// Told of each pass but the last, where the frame is to be refined.
+    seen: Option<OnPass>,
     prepared: Option<Prepared>,
-    /// Where the next tile begins.
+    /// What is still to be computed.
+    areas: VecDeque<Area>,
+    /// Where the next tile begins in the first of them.
     at: UVec2,
     pixels: Pixels,
     passes: Vec<PassTime>,
@@ -84,12 +102,14 @@ pub(crate) struct FrameJob {
 }
 
 impl FrameJob {
-    pub(crate) fn new(order: FrameOrder) -> Self {
+    pub(crate) fn new(order: FrameOrder, seen: Option<OnPass>) -> Self {
         // The pixels get their memory with the first work: orders that wait hold none.
         let pixels = Pixels::Display(Vec::new());
         Self {
             order,
+            seen,
             prepared: None,
+            areas: VecDeque::new(),
             at: UVec2::ZERO,
             pixels,
             passes: Vec::new(),
@@ -113,70 +133,83 @@ impl FrameJob {
             .is_some_and(|p| p.generation != engine.generation)
         {
             // The device that held the tables is gone.
-            *self = Self::new(self.order.clone());
+            *self = Self::new(self.order.clone(), self.seen.take());
         }
-        let Some(prepared) = &self.prepared else {
+        let size = UVec2::new(self.order.width_px, self.order.height_px);
+        let (Some(prepared), Some(area)) = (&self.prepared, self.areas.front().copied()) else {
             let (prepared, times) = engine.prepare(&self.order)?;
             add_times(&mut self.passes, times);
+            let in_passes = self.seen.is_some()
+                && self.order.quality == Quality::Final
+                && !budget.is_quick(size, prepared.work_per_pixel());
+            self.areas = if in_passes {
+                Area::passes(size).into()
+            } else {
+                VecDeque::from([Area::whole(size)])
+            };
             self.prepared = Some(prepared);
-            let values = 3 * self.order.width_px as usize * self.order.height_px as usize;
+            let values = 3 * size.x as usize * size.y as usize;
             self.pixels = match self.order.output {
                 Output::Display => Pixels::Display(vec![0; values]),
                 Output::Linear => Pixels::Linear(vec![0.0; values]),
             };
             return Ok(None);
         };
-        let size = UVec2::new(self.order.width_px, self.order.height_px);
-        let tile = budget.next(self.at, size, prepared.work_per_pixel());
+        let work = prepared.work_per_pixel();
+        let (tile, next) = area.tile(budget, self.at, work);
         let pixels = &mut self.pixels;
         let begun = Instant::now();
         let ((), ev100, times) = engine.tile(&self.order, prepared, tile, |bytes| {
             place(pixels, size, tile, bytes)
         })?;
-        budget.learn(
-            tile,
-            prepared.work_per_pixel(),
-            begun.elapsed().as_secs_f64() * 1e3,
-        );
+        budget.learn(tile.size_px, work, begun.elapsed().as_secs_f64() * 1e3);
         add_times(&mut self.passes, times);
         self.ev100 = ev100;
-        self.at.x += tile.size_px.x;
-        if self.at.x == size.x {
-            self.at = UVec2::new(0, self.at.y + tile.size_px.y);
-        }
-        if self.at.y < size.y {
+        self.at = next.unwrap_or_default();
+        if next.is_some() {
             return Ok(None);
         }
-        let empty = Pixels::Display(Vec::new());
-        Ok(Some(Arc::new(Frame {
-            width_px: size.x,
-            height_px: size.y,
-            pixels: std::mem::replace(&mut self.pixels, empty),
-            passes: std::mem::take(&mut self.passes),
-            facts: facts(&self.order.scene, &prepared.direct, self.ev100),
-        })))
+        self.areas.pop_front();
+        let facts = facts(&self.order.scene, &prepared.direct, self.ev100);
+        let frame = |pixels, passes| {
+            Arc::new(Frame {
+                width_px: size.x,
+                height_px: size.y,
+                pixels,
+                passes,
+                facts,
+            })
+        };
+        if self.areas.is_empty() {
+            let pixels = std::mem::replace(&mut self.pixels, Pixels::Display(Vec::new()));
+            return Ok(Some(frame(pixels, std::mem::take(&mut self.passes))));
+        }
+        if let Some(seen) = &self.seen {
+            seen(Refined {
+                pass: area.pass,
+                frame: frame(self.pixels.clone(), self.passes.clone()),
+            });
+        }
+        Ok(None)
     }
 }
 
 /// Copies a tile of four values a pixel into the frame of three.
 fn place(pixels: &mut Pixels, frame: UVec2, tile: TileUniform, bytes: &[u8]) {
-    let width = tile.size_px.x as usize;
-    for row in 0..tile.size_px.y as usize {
-        let to = 3 * ((tile.origin_px.y as usize + row) * frame.x as usize + tile.origin_px.x as usize);
-        let to = to..to + 3 * width;
-        match pixels {
-            Pixels::Display(values) => {
-                let from = &bytes[4 * row * width..4 * (row + 1) * width];
-                for (to, from) in values[to].chunks_exact_mut(3).zip(from.chunks_exact(4)) {
-                    to.copy_from_slice(&from[..3]);
-                }
-            }
-            Pixels::Linear(values) => {
-                let from: &[f32] = bytemuck::cast_slice(&bytes[16 * row * width..16 * (row + 1) * width]);
-                for (to, from) in values[to].chunks_exact_mut(3).zip(from.chunks_exact(4)) {
-                    to.copy_from_slice(&from[..3]);
-                }
-            }
+    match pixels {
+        Pixels::Display(values) => place_values(values, frame, tile, bytes),
+        Pixels::Linear(values) => place_values(values, frame, tile, bytemuck::cast_slice(bytes)),
+    }
+}
+
+fn place_values<T: Copy>(values: &mut [T], frame: UVec2, tile: TileUniform, from: &[T]) {
+    let (width, stride) = (tile.size_px.x as usize, tile.stride_px as usize);
+    for (row, from) in from.chunks_exact(4 * width).enumerate() {
+        let y = tile.origin_px.y as usize + stride * row;
+        let first = 3 * (y * frame.x as usize + tile.origin_px.x as usize);
+        let to = values[first..].chunks_mut(3).step_by(stride);
+        for (to, from) in to.zip(from.chunks_exact(4)) {
+            to.copy_from_slice(&from[..3]);
         }
     }
 }

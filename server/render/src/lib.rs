@@ -3,6 +3,7 @@
 //! A frame is a pure function of a scene. The renderer is a short list of passes ([`engine`]); each keeps its output
 //! until what it was made from changes. One thread owns the device ([`renderer`]).
 
+mod area;
 mod camera;
 mod catalogue;
 mod cloud_dome;
@@ -39,6 +40,7 @@ mod sunlight;
 #[cfg(test)]
 mod tests;
 mod uniforms;
+mod work;
 
 pub use error::Error;
 pub use gpu::{AdapterChoice, adapters};

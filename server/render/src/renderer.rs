@@ -8,6 +8,7 @@ use crate::{
     kept_frames::KeptFrames,
     noise_cache::DiskCache,
     probe_job::ProbeJob,
+    work::{Answer, Shared, Work},
 };
 use futures_channel::oneshot;
 use std::{
@@ -23,7 +24,9 @@ use std::{
 use welkin_scene::{
     ProbeAnswer, Quality, Scene,
     frame::MAX_SIDE_PX,
-    renderer::{DeviceInfo, Frame, FrameOrder, Output, Priority, ProbeOrder, Render, RenderError, Reply},
+    renderer::{
+        DeviceInfo, Frame, FrameOrder, OnPass, Output, Priority, ProbeOrder, Render, RenderError, Reply,
+    },
 };
 
 #[cfg(test)]
@@ -73,57 +76,6 @@ impl Drop for RendererThread {
             && handle.join().is_err()
         {
             tracing::error!("the renderer's thread panicked");
-        }
-    }
-}
-
-struct Shared {
-    places: usize,
-    taken: AtomicUsize,
-    device: Mutex<DeviceInfo>,
-    /// Running mean of the time of one order, milliseconds.
-    mean_ms: Mutex<f64>,
-}
-
-enum Work {
-    Frame(Box<FrameJob>, Answer<Arc<Frame>>),
-    Probe(Box<ProbeJob>, Answer<ProbeAnswer>),
-}
-
-/// Where an answer goes, and the order's place in the queue, given back when this is dropped.
-struct Answer<T> {
-    sender: oneshot::Sender<Result<T, RenderError>>,
-    shared: Arc<Shared>,
-}
-
-impl<T> Answer<T> {
-    fn send(self, result: Result<T, RenderError>) {
-        let Self { sender, shared } = self;
-        shared.taken.fetch_sub(1, Ordering::AcqRel);
-        // An asker who has gone needs no answer.
-        drop(sender.send(result));
-    }
-}
-
-impl Work {
-    const fn priority(&self) -> Priority {
-        match self {
-            Self::Frame(job, _) => job.order().priority,
-            Self::Probe(..) => Priority::Interactive,
-        }
-    }
-
-    fn abandoned(&self) -> bool {
-        match self {
-            Self::Frame(_, answer) => answer.sender.is_canceled(),
-            Self::Probe(_, answer) => answer.sender.is_canceled(),
-        }
-    }
-
-    fn refuse(self, error: RenderError) {
-        match self {
-            Self::Frame(_, answer) => answer.send(Err(error)),
-            Self::Probe(_, answer) => answer.send(Err(error)),
         }
     }
 }
@@ -188,6 +140,22 @@ impl Renderer {
         }
     }
 
+    fn queue_frame(&self, order: FrameOrder, seen: Option<OnPass>) -> Reply<Arc<Frame>> {
+        let side = |px: u32| (1..=MAX_SIDE_PX).contains(&px);
+        let (width_px, height_px) = (order.width_px, order.height_px);
+        if !side(width_px) || !side(height_px) {
+            let reason = format!("each side must be 1 to {MAX_SIDE_PX} pixels");
+            return Box::pin(async move {
+                Err(RenderError::Size {
+                    width_px,
+                    height_px,
+                    reason,
+                })
+            });
+        }
+        self.order(|answer| Work::Frame(Box::new(FrameJob::new(order, seen)), answer))
+    }
+
     fn order<T: Send + 'static>(&self, work: impl FnOnce(Answer<T>) -> Work) -> Reply<T> {
         let shared = &self.shared;
         if shared.taken.fetch_add(1, Ordering::AcqRel) >= shared.places {
@@ -216,41 +184,13 @@ impl Renderer {
     }
 }
 
-impl Shared {
-    fn learn(&self, ms: f64) {
-        let mut mean_ms = self.mean_ms.lock().unwrap_or_else(PoisonError::into_inner);
-        *mean_ms += 0.1 * (ms - *mean_ms);
-    }
-
-    /// When the orders that wait will be done, seconds.
-    fn retry_after_s(&self) -> u32 {
-        let mean_ms = *self.mean_ms.lock().unwrap_or_else(PoisonError::into_inner);
-        let waiting = u32::try_from(self.taken.load(Ordering::Acquire)).unwrap_or(u32::MAX);
-        #[allow(
-            clippy::cast_possible_truncation,
-            clippy::cast_sign_loss,
-            reason = "clamped to 1..60 first"
-        )]
-        let seconds = (f64::from(waiting) * mean_ms * 1e-3).clamp(1.0, 60.0).ceil() as u32;
-        seconds
-    }
-}
-
 impl Render for Renderer {
     fn frame(&self, order: FrameOrder) -> Reply<Arc<Frame>> {
-        let side = |px: u32| (1..=MAX_SIDE_PX).contains(&px);
-        let (width_px, height_px) = (order.width_px, order.height_px);
-        if !side(width_px) || !side(height_px) {
-            let reason = format!("each side must be 1 to {MAX_SIDE_PX} pixels");
-            return Box::pin(async move {
-                Err(RenderError::Size {
-                    width_px,
-                    height_px,
-                    reason,
-                })
-            });
-        }
-        self.order(|answer| Work::Frame(Box::new(FrameJob::new(order)), answer))
+        self.queue_frame(order, None)
+    }
+
+    fn refine(&self, order: FrameOrder, seen: OnPass) -> Reply<Arc<Frame>> {
+        self.queue_frame(order, Some(seen))
     }
 
     fn probe(&self, order: ProbeOrder) -> Reply<ProbeAnswer> {

@@ -202,7 +202,10 @@ impl ViewUniform {
 #[derive(Clone, Copy, Debug, ShaderType)]
 pub(crate) struct TileUniform {
     pub(crate) origin_px: UVec2,
+    /// Pixels that are computed.
     pub(crate) size_px: UVec2,
+    /// From one of them to the next in the frame.
+    pub(crate) stride_px: u32,
 }
 
 /// `Order` of `multi_scattering.wgsl`.
@@ -231,6 +234,7 @@ pub(crate) struct ToneUniform {
     pub(crate) gain: Vec3,
     pub(crate) glare: f32,
     pub(crate) glaring_irradiance: Vec3,
+    pub(crate) stride_px: u32,
     pub(crate) origin_px: UVec2,
     pub(crate) size_px: UVec2,
 }
@@ -275,6 +279,7 @@ impl ToneUniform {
             glaring_angular_radius: narrow((glare.diameter_deg / 2.0).to_radians()),
             origin_px: tile.origin_px,
             size_px: tile.size_px,
+            stride_px: tile.stride_px,
         };
         (tone, ev)
     }

@@ -28,6 +28,7 @@ pub mod planet;
 pub mod preset;
 pub mod probe;
 pub mod problem;
+pub mod refinement;
 pub mod renderer;
 pub mod schema;
 mod shape;

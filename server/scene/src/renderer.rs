@@ -13,10 +13,25 @@ use std::{future::Future, pin::Pin, sync::Arc};
 /// The answer that a renderer will give. Dropping it cancels the work at the next tile.
 pub type Reply<T> = Pin<Box<dyn Future<Output = Result<T, RenderError>> + Send>>;
 
+/// Told of a frame after each pass of its refinement. It is called where the device is waited for, and must not wait.
+pub type OnPass = Box<dyn Fn(Refined) + Send>;
+
+/// A frame that is being refined.
+#[derive(Clone, Debug)]
+pub struct Refined {
+    /// The last pass that was done, from 1. After a loss of the device it begins anew.
+    pub pass: u16,
+    /// The frame so far; pixels of later passes are zero.
+    pub frame: Arc<Frame>,
+}
+
 /// Renders validated scenes.
 pub trait Render: Send + Sync {
     /// One frame. The work is queued by the call itself, not at the first poll.
     fn frame(&self, order: FrameOrder) -> Reply<Arc<Frame>>;
+    /// The same frame in the order of [`crate::refinement`], each pixel once; `seen` is told of each pass but the last. A
+    /// frame that is quickly done, or that was kept, is made at once, as is a preview.
+    fn refine(&self, order: FrameOrder, seen: OnPass) -> Reply<Arc<Frame>>;
     /// Radiance at exact directions.
     fn probe(&self, order: ProbeOrder) -> Reply<ProbeAnswer>;
     /// The device that renders.

@@ -97,7 +97,7 @@ impl Service {
 
     /// Orders a frame once its pixels fit in memory. Dropping the future cancels the order.
     pub(crate) async fn render(&self, order: FrameOrder) -> Result<Held, Error> {
-        let memory = self.reserve(&order).await?;
+        let memory = self.reserve(&order, 1).await?;
         let start = Instant::now();
         let _in_work = Counted::frame_in_work();
         let frame = self.renderer.frame(order).await.map_err(|error| {
@@ -132,8 +132,14 @@ impl Service {
         Ok((bytes, took))
     }
 
-    async fn reserve(&self, order: &FrameOrder) -> Result<OwnedSemaphorePermit, Error> {
-        let bytes = u64::from(order.width_px) * u64::from(order.height_px) * bytes_per_pixel(order.output);
+    /// The memory of a frame's pixels, so many times over, once there is room.
+    pub(crate) async fn reserve(
+        &self,
+        order: &FrameOrder,
+        copies: u64,
+    ) -> Result<OwnedSemaphorePermit, Error> {
+        let pixels = u64::from(order.width_px) * u64::from(order.height_px);
+        let bytes = copies * pixels * bytes_per_pixel(order.output);
         let busy = || Error::Busy {
             what: "frames in work fill the memory they may have".into(),
             retry_after_s: 5,

@@ -55,6 +55,7 @@ impl ExposurePass {
         let tile = TileUniform {
             origin_px: UVec2::ZERO,
             size_px,
+            stride_px: 1,
         };
         let meter = Part::new(&MeterUniform {
             size_px,

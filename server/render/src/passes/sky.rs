@@ -251,7 +251,7 @@ impl Sky {
             recorder.dispatch(kernel, &all, [threads.x, threads.y, 1]);
         };
         if !preview {
-            let threads = UVec2::new(tile.size_px.x.div_ceil(span), tile.size_px.y);
+            let threads = UVec2::new(runs(tile, span), tile.size_px.y);
             stage(0.0, UVec2::ONE, [&nothing, &other], threads);
         } else {
             stage(1.0, CLEAR_GRAIN, [&nothing, first], places(CLEAR_GRAIN));
@@ -288,6 +288,12 @@ impl Lattice {
 fn place_count(tile: TileUniform, grain: UVec2) -> UVec2 {
     let end = tile.origin_px + tile.size_px;
     (end + grain - 1) / grain - tile.origin_px / grain + 2
+}
+
+/// Runs of a row that the tile has pixels of.
+fn runs(tile: TileUniform, span: u32) -> u32 {
+    let (begin, stride) = (tile.origin_px.x, tile.stride_px);
+    (begin % span + tile.size_px.x * stride).div_ceil(span.max(stride))
 }
 
 /// Blocks of pixels, `RUN` to a row, that the tile has a part of.

@@ -96,15 +96,18 @@ impl StarsPass {
         radiance: &wgpu::Buffer,
     ) {
         let field = &stars.field;
-        let origin = tile.origin_px.y * field.width_px + tile.origin_px.x;
-        let part = within(&field.glints, origin..origin + tile.size_px.x * tile.size_px.y);
+        let index = |pixel: UVec2| pixel.y * field.width_px + pixel.x;
+        let last = tile.origin_px + tile.stride_px * (tile.size_px - 1);
+        let part = within(&field.glints, index(tile.origin_px)..index(last) + 1);
         let count = |n: usize| u32::try_from(n).unwrap_or(u32::MAX);
         let stretch = StretchUniform {
             first: count(part.start),
             count: count(part.len()),
-            origin,
+            frame_width: field.width_px,
             out: stars.out,
-            width: tile.size_px.x,
+            origin_px: tile.origin_px,
+            size_px: tile.size_px,
+            stride_px: tile.stride_px,
         };
         if part.is_empty() {
             return;

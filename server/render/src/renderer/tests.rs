@@ -47,7 +47,7 @@ fn task<T>(worker: &Worker, work: impl FnOnce(Answer<T>) -> Work) -> (Task, Wait
 
 fn frame_task(worker: &Worker, order: FrameOrder) -> (Task, Waiting<Arc<Frame>>) {
     task(worker, |answer| {
-        Work::Frame(Box::new(FrameJob::new(order)), answer)
+        Work::Frame(Box::new(FrameJob::new(order, None)), answer)
     })
 }
 

@@ -17,7 +17,7 @@ fn radiance(table_format: wgpu::TextureFormat) -> Vec<f32> {
     let mut engine = Engine::on(gpu, None, 0).unwrap();
     let mut scene = Scene::default();
     scene.sun.disc = false;
-    let mut job = FrameJob::new(FrameOrder {
+    let order = FrameOrder {
         scene: Arc::new(scene),
         assets: Arc::default(),
         width_px: 96,
@@ -25,7 +25,8 @@ fn radiance(table_format: wgpu::TextureFormat) -> Vec<f32> {
         quality: Quality::Final,
         output: Output::Linear,
         priority: Priority::Interactive,
-    });
+    };
+    let mut job = FrameJob::new(order, None);
     let mut budget = TileBudget::default();
     loop {
         if let Some(frame) = job.step(&mut engine, &mut budget).unwrap() {

@@ -267,10 +267,11 @@ fn tile_order_and_meter() {
         f,
         TileUniform {
             origin_px: uvec2,
-            size_px: uvec2
+            size_px: uvec2,
+            stride_px: u32
         }
     );
-    check(&[&shader::SKY], "Tile", &part, &f);
+    check(&[&shader::SKY, &shader::CLOUD_VIEW], "Tile", &part, &f);
     let mut f = Filled::default();
     let part = filled!(
         f,
@@ -309,6 +310,7 @@ fn tone() {
             gain: vec3,
             glare: f32,
             glaring_irradiance: vec3,
+            stride_px: u32,
             origin_px: uvec2,
             size_px: uvec2,
         }
@@ -356,9 +358,11 @@ fn night() {
         StretchUniform {
             first: u32,
             count: u32,
-            origin: u32,
+            frame_width: u32,
             out: f32,
-            width: u32
+            origin_px: uvec2,
+            size_px: uvec2,
+            stride_px: u32
         }
     );
     check(&[&shader::STARS], "Stretch", &part, &f);

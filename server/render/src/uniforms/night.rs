@@ -9,7 +9,7 @@ use crate::{
     moonlight::{Moonlight, Uncovered},
 };
 use encase::ShaderType;
-use glam::{DVec3, Vec3};
+use glam::{DVec3, UVec2, Vec3};
 use welkin_scene::{MoonSeen, Scene};
 
 /// `Stretch` of `stars.wgsl`.
@@ -17,9 +17,11 @@ use welkin_scene::{MoonSeen, Scene};
 pub(crate) struct StretchUniform {
     pub(crate) first: u32,
     pub(crate) count: u32,
-    pub(crate) origin: u32,
+    pub(crate) frame_width: u32,
     pub(crate) out: f32,
-    pub(crate) width: u32,
+    pub(crate) origin_px: UVec2,
+    pub(crate) size_px: UVec2,
+    pub(crate) stride_px: u32,
 }
 
 /// `Airglow` of `lib/airglow.wgsl`.

@@ -3,7 +3,9 @@
 pub(crate) mod document;
 mod header;
 mod message;
+mod mixture;
 mod pace;
+mod refining;
 mod session;
 mod shot;
 mod view;

@@ -3,19 +3,26 @@
 use super::{
     message,
     pace::Pace,
+    refining::Refining,
     shot::{self, Shot, Stage},
     view::View,
 };
-use crate::{error::Error, metrics, problem::Problem, state::Service};
+use crate::{
+    error::Error,
+    metrics,
+    problem::Problem,
+    state::{Held, Service},
+};
 use axum::extract::ws::{CloseFrame, Message, WebSocket, close_code};
 use bytes::Bytes;
 use futures_util::{FutureExt, StreamExt, future::OptionFuture};
 use serde_json::json;
-use std::{future::Future, pin::Pin, time::Duration};
+use std::{future::Future, pin::Pin, sync::Arc, time::Duration};
 use tokio::{
     sync::watch,
     time::{Instant, MissedTickBehavior, interval_at, sleep_until, timeout},
 };
+use welkin_scene::Quality;
 
 /// How often an idle connection is shown to be alive.
 const KEEPALIVE: Duration = Duration::from_secs(20);
@@ -28,7 +35,8 @@ const BUSY_WAIT: Duration = Duration::from_millis(100);
 /// Messages taken in before the next picture is begun, however many more wait.
 const MOST_AT_ONCE: usize = 1000;
 
-type Work = Pin<Box<dyn Future<Output = Result<Shot, Error>> + Send>>;
+/// A picture, and the rest of its refinement.
+type Work = Pin<Box<dyn Future<Output = Result<(Shot, Option<Refining>), Error>> + Send>>;
 
 /// Why the connection ends, with the code that says so.
 struct End(u16, &'static str);
@@ -47,6 +55,10 @@ struct Session {
     next: Option<Stage>,
     /// What is being rendered, and for which stage.
     work: Option<(Stage, Work)>,
+    /// The preview of the view, while it is refined.
+    preview: Option<Arc<Held>>,
+    /// The refinement of the view, between two pictures.
+    refining: Option<Refining>,
     /// By when the last picture must be confirmed.
     pong_due: Option<Instant>,
     /// Not before this is the next picture begun.
@@ -67,6 +79,8 @@ pub(crate) async fn run(socket: WebSocket, service: Service) {
         pace: Pace::default(),
         next: None,
         work: None,
+        preview: None,
+        refining: None,
         pong_due: None,
         wait_until: None,
         told_to_wait: false,
@@ -187,6 +201,7 @@ impl Session {
             divisor: self.pace.divisor(),
         });
         self.work.take_if(|(stage, _)| *stage == Stage::Refinement);
+        (self.refining, self.preview) = (None, None);
     }
 
     fn begin(&mut self) {
@@ -194,21 +209,36 @@ impl Session {
             return;
         }
         let Some(stage) = self.next.take() else { return };
-        let work = shot::take(self.service.clone(), self.view.clone(), stage);
-        self.work = Some((stage, Box::pin(work)));
+        let (service, view) = (self.service.clone(), self.view.clone());
+        let in_passes = stage == Stage::Refinement && view.output.quality == Quality::Final;
+        let preview = self.preview.clone().filter(|_| in_passes);
+        let work: Work = match (self.refining.take(), preview) {
+            (Some(refining), _) => Box::pin(refining.next()),
+            (None, Some(preview)) => {
+                Box::pin(async { Refining::begin(service, view, preview).await?.next().await })
+            }
+            (None, None) => Box::pin(async move { Ok((shot::take(service, view, stage).await?, None)) }),
+        };
+        self.work = Some((stage, work));
     }
 
-    async fn finish(&mut self, done: Result<Shot, Error>) -> Result<(), End> {
+    async fn finish(&mut self, done: Result<(Shot, Option<Refining>), Error>) -> Result<(), End> {
         let stage = self.work.take().map(|(stage, _)| stage);
         match done {
-            Ok(shot) => {
+            Ok((shot, refining)) => {
                 self.told_to_wait = false;
                 if let Stage::Preview { divisor } = shot.stage {
                     self.pace.learn(divisor, shot.took);
                 }
                 // A change that came meanwhile has set its own next stage.
-                if self.next.is_none() && !shot.stage.is_last(self.view.output) {
-                    self.next = Some(Stage::Refinement);
+                if self.next.is_none() {
+                    self.next = (!shot.is_last).then_some(Stage::Refinement);
+                    self.refining = refining;
+                    self.preview = shot
+                        .held
+                        .clone()
+                        .or(self.preview.take())
+                        .filter(|_| !shot.is_last);
                 }
                 self.show(shot).await
             }

@@ -18,11 +18,12 @@ use std::{
 use welkin_encode::{EncodeError, Options, encode};
 use welkin_scene::{
     frame::{Format, Quality},
+    refinement::PASSES,
     renderer::{Frame, FrameOrder, Output, Pixels, Priority},
 };
 
-/// Quality of a preview's JPEG: it is looked at for the blink of an eye.
-const PREVIEW_JPEG_QUALITY: u8 = 80;
+/// Quality of the JPEG of a picture that is soon followed by a better one.
+pub(crate) const PASSING_JPEG_QUALITY: u8 = 80;
 
 /// What is to be rendered next.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -36,6 +37,8 @@ pub(crate) enum Stage {
 /// A picture ready to be sent.
 pub(crate) struct Shot {
     pub(crate) stage: Stage,
+    /// True where nothing comes after it.
+    pub(crate) is_last: bool,
     pub(crate) quality: Quality,
     pub(crate) seq: u32,
     /// Header and picture.
@@ -44,61 +47,68 @@ pub(crate) struct Shot {
     pub(crate) stats: Value,
     /// From the order to the encoded picture, the queue included.
     pub(crate) took: Duration,
+    /// The frame that was shown, where one was made for it alone.
+    pub(crate) held: Option<Arc<Held>>,
 }
 
 impl Stage {
-    /// The refinement pass that this is, and how many there are.
-    fn passes(self, output: LiveOutput) -> (u16, u16) {
-        match self {
-            Self::Preview { divisor: 1 } if output.quality == Quality::Preview => (0, 1),
-            Self::Preview { .. } => (0, 2),
-            Self::Refinement => (1, 2),
+    /// How many passes there are with the preview: it, and those of its refinement.
+    pub(crate) const fn passes(self, output: LiveOutput) -> u16 {
+        match (output.quality, self) {
+            (Quality::Final, _) => 1 + PASSES,
+            (Quality::Preview, Self::Preview { divisor: 1 }) => 1,
+            (Quality::Preview, _) => 2,
         }
-    }
-
-    /// True where nothing comes after it.
-    pub(crate) fn is_last(self, output: LiveOutput) -> bool {
-        let (pass, passes) = self.passes(output);
-        pass + 1 == passes
     }
 }
 
-/// Renders and encodes. Dropping the future cancels the order.
-pub(crate) async fn take(service: Service, view: View, stage: Stage) -> Result<Shot, Error> {
-    let output = view.output;
-    let (turns, divisor, quality, priority) = match stage {
-        Stage::Preview { divisor } => (
-            &service.previews,
-            divisor,
-            Quality::Preview,
-            Priority::Interactive,
-        ),
-        // A refinement that nobody drags at must not hold up another viewer's drag.
-        Stage::Refinement => (&service.refinements, 1, output.quality, Priority::Batch),
-    };
-    let _turn = Arc::clone(turns)
-        .acquire_owned()
-        .await
-        .map_err(|_| Error::Stopped)?;
+/// The order of a frame for a viewer.
+pub(crate) async fn order(
+    service: &Service,
+    view: &View,
+    (quality, priority): (Quality, Priority),
+    (width_px, height_px): (u16, u16),
+) -> Result<FrameOrder, Error> {
     let assets = service.assets_of(&view.scene).await;
-    let assets = assets.map_err(|e| e.within("/scene"))?;
-    let (width_px, height_px) = divided(output.width_px, output.height_px, divisor);
-    let order = FrameOrder {
+    Ok(FrameOrder {
         scene: Arc::clone(&view.scene),
-        assets,
+        assets: assets.map_err(|e| e.within("/scene"))?,
         width_px: width_px.into(),
         height_px: height_px.into(),
         quality,
         output: Output::Display,
         priority,
+    })
+}
+
+/// Renders and encodes a frame that has no passes. Dropping the future cancels the order.
+pub(crate) async fn take(service: Service, view: View, stage: Stage) -> Result<Shot, Error> {
+    let output = view.output;
+    let (turns, divisor, priority) = match stage {
+        Stage::Preview { divisor } => (&service.previews, divisor, Priority::Interactive),
+        // A refinement that nobody drags at must not hold up another viewer's drag.
+        Stage::Refinement => (&service.refinements, 1, Priority::Batch),
     };
+    let _turn = Arc::clone(turns)
+        .acquire_owned()
+        .await
+        .map_err(|_| Error::Stopped)?;
+    let (width_px, height_px) = divided(output.width_px, output.height_px, divisor);
+    let order = order(
+        &service,
+        &view,
+        (Quality::Preview, priority),
+        (width_px, height_px),
+    )
+    .await?;
     let start = Instant::now();
-    let Held {
-        frame,
-        memory,
-        took: rendering,
-    } = service.render(order).await.map_err(|e| e.within("/output"))?;
-    let (pass, passes) = stage.passes(output);
+    let held = service.render(order).await.map_err(|e| e.within("/output"))?;
+    let held = Arc::new(held);
+    let passes = stage.passes(output);
+    let pass = match stage {
+        Stage::Preview { .. } => 0,
+        Stage::Refinement => passes - 1,
+    };
     let head = Header {
         seq: view.seq,
         pass,
@@ -107,16 +117,42 @@ pub(crate) async fn take(service: Service, view: View, stage: Stage) -> Result<S
         height_px,
         format: output.format,
     };
-    let (passes, facts) = (frame.passes.clone(), frame.facts);
-    let work = move || {
-        let _memory = memory;
-        picture(head, &frame, quality)
-    };
-    let (message, encoding) = service.encode(output.format, work).await?;
+    let shown = Arc::clone(&held);
+    let work = move || encoded(head, &shown.frame, PASSING_JPEG_QUALITY);
+    let (message, stats) = develop(
+        &service,
+        &view,
+        (head, Quality::Preview),
+        (&held.frame, held.took),
+        work,
+    )
+    .await?;
+    Ok(Shot {
+        stage,
+        is_last: pass + 1 == passes,
+        quality: Quality::Preview,
+        seq: view.seq,
+        message,
+        stats,
+        took: start.elapsed(),
+        held: Some(held),
+    })
+}
+
+/// Encodes a picture, and says what there is to say of the frame.
+pub(crate) async fn develop(
+    service: &Service,
+    view: &View,
+    (head, quality): (Header, Quality),
+    (frame, rendering): (&Frame, Duration),
+    work: impl FnOnce() -> Result<Vec<u8>, EncodeError> + Send + 'static,
+) -> Result<(Bytes, Value), Error> {
+    let (message, encoding) = service.encode(head.format, work).await?;
     let ms = |duration: Duration| duration.as_secs_f64() * 1e3;
+    let facts = &frame.facts;
     let mut stats = json!({
-        "passes": passes, "render_ms": ms(rendering), "encode_ms": ms(encoding),
-        "width_px": width_px, "height_px": height_px, "quality": quality, "ev100": facts.ev100,
+        "passes": frame.passes, "render_ms": ms(rendering), "encode_ms": ms(encoding),
+        "width_px": head.width_px, "height_px": head.height_px, "quality": quality, "ev100": facts.ev100,
         "sun": facts.sun, "moon": facts.moon, "adapter": service.renderer.device().adapter,
         "bytes": message.len() - header::LENGTH,
     });
@@ -124,22 +160,11 @@ pub(crate) async fn take(service: Service, view: View, stage: Stage) -> Result<S
         stats["at_s"] = at_s.into();
         stats["scene"] = json!(*view.scene);
     }
-    let message = message.into();
-    Ok(Shot {
-        stage,
-        quality,
-        seq: view.seq,
-        message,
-        stats: json!({"seq": view.seq, "stats": stats}),
-        took: start.elapsed(),
-    })
+    Ok((message.into(), json!({"seq": view.seq, "stats": stats})))
 }
 
-fn picture(head: Header, frame: &Frame, quality: Quality) -> Result<Vec<u8>, EncodeError> {
-    let jpeg_quality = match quality {
-        Quality::Preview => PREVIEW_JPEG_QUALITY,
-        Quality::Final => Options::default().jpeg_quality,
-    };
+/// Header and picture.
+pub(crate) fn encoded(head: Header, frame: &Frame, jpeg_quality: u8) -> Result<Vec<u8>, EncodeError> {
     let options = Options {
         jpeg_quality,
         ..Options::default()

@@ -11,9 +11,10 @@ use std::{
 };
 use welkin_scene::{
     Irradiance, ProbeAnswer, Quality,
+    refinement::PASSES,
     renderer::{
-        DeviceInfo, Frame, FrameFacts, FrameOrder, Output, PassTime, Pixels, ProbeOrder, Render, RenderError,
-        Reply,
+        DeviceInfo, Frame, FrameFacts, FrameOrder, OnPass, Output, PassTime, Pixels, ProbeOrder, Refined,
+        Render, RenderError, Reply,
     },
 };
 
@@ -101,6 +102,21 @@ impl Render for Fake {
             ready: false,
             cancelled: Arc::clone(&self.cancelled),
         })
+    }
+
+    /// Passes together take as long as their frame; whether somebody waits for them or not, as on a thread of their own.
+    fn refine(&self, order: FrameOrder, seen: OnPass) -> Reply<Arc<Frame>> {
+        let (delay, frame) = ((self.delay)(&order), Arc::new(gradient(&order)));
+        tokio::spawn(async move {
+            for pass in 1..PASSES {
+                tokio::time::sleep(delay / u32::from(PASSES)).await;
+                seen(Refined {
+                    pass,
+                    frame: Arc::clone(&frame),
+                });
+            }
+        });
+        self.frame(order)
     }
 
     fn probe(&self, order: ProbeOrder) -> Reply<ProbeAnswer> {

@@ -2,17 +2,14 @@
 
 use crate::{
     client::{PATIENCE, Viewer, server},
+    deaf::{BINARY, CLOSE, Deaf, PING, PONG},
     fake::Fake,
 };
 use axum::body::Bytes;
 use futures_util::{SinkExt, StreamExt};
 use serde_json::{Value, json};
 use std::{sync::atomic::Ordering, time::Duration};
-use tokio::{
-    io::{AsyncReadExt, AsyncWriteExt},
-    net::TcpStream,
-    time::{sleep, timeout},
-};
+use tokio::time::{sleep, timeout};
 use tokio_tungstenite::tungstenite::Message;
 use welkin_scene::{Quality, renderer::FrameOrder};
 use welkin_service::Settings;
@@ -66,7 +63,7 @@ impl Viewer {
         loop {
             if let Message::Binary(bytes) = self.hear().await
                 && bytes[0..4] == seq.to_le_bytes()
-                && bytes[4..6] == 1_u16.to_le_bytes()
+                && bytes[4..6] == 16_u16.to_le_bytes()
             {
                 return true;
             }
@@ -129,50 +126,6 @@ async fn a_viewer_that_leaves_cancels_its_frame() {
     .unwrap();
 }
 
-/// A viewer that answers no ping: only what is written by hand goes out.
-struct Deaf(TcpStream);
-
-impl Deaf {
-    async fn connect(address: std::net::SocketAddr) -> Self {
-        let mut stream = TcpStream::connect(address).await.unwrap();
-        let request = "GET /v1/live HTTP/1.1\r\nHost: welkin\r\nConnection: Upgrade\r\nUpgrade: websocket\r\n\
-                       Sec-WebSocket-Version: 13\r\nSec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n\r\n";
-        stream.write_all(request.as_bytes()).await.unwrap();
-        let mut head = Vec::new();
-        while !head.ends_with(b"\r\n\r\n") {
-            head.push(stream.read_u8().await.unwrap());
-        }
-        assert!(head.starts_with(b"HTTP/1.1 101"));
-        Self(stream)
-    }
-
-    /// A client's frame is masked (RFC 6455 §5.3); a mask of zeros leaves the data as it is.
-    async fn send(&mut self, opcode: u8, data: &[u8]) {
-        assert!(data.len() < 126);
-        let mut frame = vec![0x80 | opcode, 0x80 | data.len() as u8, 0, 0, 0, 0];
-        frame.extend(data);
-        self.0.write_all(&frame).await.unwrap();
-    }
-
-    /// Opcode and data of the next frame.
-    async fn read(&mut self) -> (u8, Vec<u8>) {
-        let opcode = self.0.read_u8().await.unwrap() & 0x0f;
-        let length = match self.0.read_u8().await.unwrap() {
-            126 => self.0.read_u16().await.unwrap().into(),
-            127 => self.0.read_u64().await.unwrap() as usize,
-            short => usize::from(short),
-        };
-        let mut data = vec![0; length];
-        self.0.read_exact(&mut data).await.unwrap();
-        (opcode, data)
-    }
-}
-
-const BINARY: u8 = 2;
-const CLOSE: u8 = 8;
-const PING: u8 = 9;
-const PONG: u8 = 10;
-
 #[tokio::test]
 async fn the_next_picture_waits_until_the_last_is_confirmed() {
     let server = server(&Fake::new(), Settings::default()).await;
@@ -204,7 +157,7 @@ async fn the_next_picture_waits_until_the_last_is_confirmed() {
             }
         }
     }
-    assert_eq!(shown, [(5, 0), (5, 1)], "seq and pass");
+    assert_eq!(shown, [(5, 0), (5, 16)], "seq and pass");
 }
 
 #[tokio::test]

@@ -78,7 +78,7 @@ async fn of_moments_that_came_meanwhile_the_latest_is_shown() {
     }
     let shown = viewer.pictures_until_done(100).await;
     assert!(shown.windows(2).all(|pair| pair[0].seq <= pair[1].seq));
-    // One in work when they came, perhaps one more, and the latest in two passes.
+    // One in work when they came, perhaps one more, and the latest with its refinement.
     assert!(shown.len() < 20, "{} pictures of 101 moments", shown.len());
 }
 

@@ -6,7 +6,7 @@ use serde_json::json;
 /// The picture with lattices and without.
 fn both(engine: &mut Engine, order: &FrameOrder) -> [Vec<u8>; 2] {
     [true, false].map(|by_lattices| {
-        let mut job = FrameJob::new(order.clone());
+        let mut job = FrameJob::new(order.clone(), None);
         let mut budget = TileBudget { pixels: 1 << 20 };
         assert!(job.step(engine, &mut budget).unwrap().is_none());
         let prepared = job.prepared.as_mut().unwrap();

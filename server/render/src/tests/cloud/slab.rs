@@ -32,6 +32,7 @@ pub(super) fn look(gpu: &Gpu, scene: &Scene, assets: &SceneAssets, size_px: UVec
     let tile = TileUniform {
         origin_px: UVec2::ZERO,
         size_px,
+        stride_px: 1,
     };
     let seen = CloudView::new().run(&mut recorder, &scape, (&camera, tables.plan.projection), tile);
     recorder.finish(&[], |_| ()).unwrap();
