@@ -8,7 +8,7 @@ import { announce } from './toast.js';
 /** @type {Record<State, string>} */
 const NAMES = { connecting: 'Connecting', preview: 'Refining', final: 'Final', reconnecting: 'Reconnecting' };
 const RATE_WINDOW_MS = 1000;
-/** A preview and its refinement are not yet movement. */
+/** A preview or two are not yet movement. */
 const STILL = 3;
 
 export function createHud() {
@@ -34,8 +34,9 @@ export function createHud() {
       else if (before === 'reconnecting') announce('Connected again.');
     },
     /** @param {import('./protocol.js').FrameMessage} frame */
-    frame({ width, height }) {
-      arrivals.push(performance.now());
+    frame({ pass, width, height }) {
+      // Refinements are no movement.
+      if (pass === 0) arrivals.push(performance.now());
       showRate();
       size.textContent = `${width} × ${height}`;
     },

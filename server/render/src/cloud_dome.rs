@@ -28,6 +28,9 @@ const MOST_DOMES: usize = 2;
 const BLOCKS: std::ops::RangeInclusive<u32> = 256..=3072;
 /// Cells to the side of a dome.
 const CELLS: std::ops::RangeInclusive<u32> = 64..=4096;
+/// Longer side of the smallest picture whose cells are as large as its pixels warrant: smaller previews are enlarged
+/// where they are shown.
+const SEEN_PX: f64 = 900.0;
 /// Pixels between the places at which the picture is asked where it looks.
 const ASK_PX: u32 = 8;
 /// Cells about such a place that are looked at: they are closer than pixels by no more than a projection stretches.
@@ -125,9 +128,11 @@ const fn whole(value: f64) -> u32 {
     value as u32
 }
 
-/// Cells to a side, so that they are about as large as four pixels, which span that angle each.
-fn cells_for(pixel_angle: f64) -> u32 {
-    let cells = (1.0 / pixel_angle).clamp(f64::from(*CELLS.start()), f64::from(*CELLS.end()));
+/// Cells to a side, so that they are about as large as four pixels, which span that angle each; of a small picture, as
+/// large as those of the same view at [`SEEN_PX`].
+fn cells_for(pixel_angle: f64, size_px: UVec2) -> u32 {
+    let finer = (SEEN_PX / f64::from(size_px.max_element())).max(1.0);
+    let cells = (finer / pixel_angle).clamp(f64::from(*CELLS.start()), f64::from(*CELLS.end()));
     whole(cells).next_multiple_of(2 * BLOCK_CELLS)
 }
 
@@ -252,7 +257,7 @@ impl CloudDomes {
     ) -> DomeView {
         let gpu = recorder.gpu;
         self.frames += 1;
-        let mut cells = cells_for(pixel_angle);
+        let mut cells = cells_for(pixel_angle, size_px);
         let mut wanted = blocks_before(lens, size_px, cells);
         while wanted.len() > *BLOCKS.end() as usize {
             cells = (cells / 2).next_multiple_of(2 * BLOCK_CELLS);

@@ -2,35 +2,50 @@
 
 use std::time::Duration;
 
-/// What a preview should take.
-const TARGET: Duration = Duration::from_millis(60);
-/// Above this the next is a step smaller.
-const TOO_SLOW: Duration = Duration::from_millis(90);
-/// Below this the next is a step larger. Four times the pixels then take at most [`TARGET`] plus a fixed part that
-/// was counted four times, so that a step up is not followed by a step down.
-const FAST: Duration = Duration::from_millis(20);
-/// Twice as wide and high was too slow: that many previews pass before it is tried again.
-const PATIENCE: u32 = 40;
-/// Divisors of the full size.
-const DIVISORS: [u16; 3] = [1, 2, 4];
+/// What the sides may be divided by, and the time at which a preview of that size is too slow. A quarter is so soft that
+/// four pictures a second at half the size are better.
+const STEPS: [(u16, Duration); 3] = [
+    (1, Duration::from_millis(90)),
+    (2, Duration::from_millis(250)),
+    (4, Duration::MAX),
+];
+/// One preview may be slow because shaders were compiled or noise was made for it; so many in a row are not.
+const SLOW_IN_A_ROW: u32 = 3;
+/// Twice as wide and high is four times the work at most: it is tried at once where that would take so much of the time
+/// that it may, leaving room for what varies from preview to preview.
+const SURELY: f64 = 0.9 / 4.0;
+/// Part of the work is the same at any size: full and half size are also tried where the time now is so much of what it
+/// may be. Below half the light of clouds takes most of it, which is as much for a quarter.
+const PERHAPS: [f64; 2] = [1.0 / 3.0, 0.6];
+/// Twice as wide and high was too slow: that many previews pass before it is perhaps tried again, and each time it fails
+/// twice as many.
+const PATIENCE: std::ops::RangeInclusive<u32> = 20..=80;
 
 /// Chooses the size of previews from the time that former ones took.
 #[derive(Clone, Debug)]
 pub(crate) struct Pace {
     step: usize,
+    /// Previews in a row that were too slow.
+    slow: u32,
+    patience: u32,
     wait: u32,
 }
 
 impl Default for Pace {
     fn default() -> Self {
-        Self { step: 1, wait: 0 }
+        Self {
+            step: 1,
+            slow: 0,
+            patience: *PATIENCE.start(),
+            wait: 0,
+        }
     }
 }
 
 impl Pace {
     /// What the sides are divided by.
     pub(crate) fn divisor(&self) -> u16 {
-        DIVISORS[self.step]
+        STEPS[self.step].0
     }
 
     /// Learns from a preview that was rendered with `divisor`.
@@ -39,11 +54,21 @@ impl Pace {
             return;
         }
         self.wait = self.wait.saturating_sub(1);
-        if took > TOO_SLOW && self.step + 1 < DIVISORS.len() {
-            self.step += 1;
-            self.wait = PATIENCE;
-        } else if self.step > 0 && (took < FAST || (took < TARGET / 2 && self.wait == 0)) {
-            self.step -= 1;
+        if took > STEPS[self.step].1 {
+            self.slow += 1;
+            if self.slow == SLOW_IN_A_ROW {
+                (self.step, self.slow, self.wait) = (self.step + 1, 0, self.patience);
+                self.patience = (2 * self.patience).min(*PATIENCE.end());
+            }
+            return;
+        }
+        self.slow = 0;
+        let Some(finer) = self.step.checked_sub(1) else {
+            return;
+        };
+        let share = took.div_duration_f64(STEPS[finer].1);
+        if share < SURELY || (share < PERHAPS[finer] && self.wait == 0) {
+            self.step = finer;
         }
     }
 }
@@ -63,22 +88,54 @@ pub(crate) fn divided(width_px: u16, height_px: u16, divisor: u16) -> (u16, u16)
 mod tests {
     use super::*;
 
-    /// Previews of a device that needs `fixed` and `per_full` milliseconds more at full size.
-    fn divisors(fixed: f64, per_full: f64) -> Vec<u16> {
+    /// The sizes of 400 previews that take so many milliseconds at a divisor; `ms` knows which one it is.
+    fn divisors(ms: impl Fn(usize, f64) -> f64) -> Vec<u16> {
         let mut pace = Pace::default();
-        let preview = |_| {
+        let preview = |i| {
             let divisor = pace.divisor();
-            let ms = fixed + per_full / f64::from(divisor * divisor);
-            pace.learn(divisor, Duration::from_secs_f64(ms / 1e3));
+            pace.learn(divisor, Duration::from_secs_f64(ms(i, f64::from(divisor)) / 1e3));
             divisor
         };
-        (0..200).map(preview).collect()
+        (0..400).map(preview).collect()
+    }
+
+    /// A device that needs so many milliseconds at any size, and so many more at full size.
+    fn device(fixed: f64, per_full: f64) -> impl Fn(usize, f64) -> f64 {
+        move |_, divisor| fixed + per_full / (divisor * divisor)
     }
 
     #[test]
-    fn a_fast_device_shows_full_size_and_a_slow_one_a_quarter() {
-        assert_eq!(divisors(1.0, 5.0).last(), Some(&1));
-        assert_eq!(divisors(5.0, 2000.0).last(), Some(&4));
+    fn a_fast_device_shows_full_size_and_a_slow_one_half() {
+        assert_eq!(divisors(device(1.0, 5.0)).last(), Some(&1));
+        for (fixed, per_full) in [(60.0, 50.0), (5.0, 900.0), (200.0, 190.0)] {
+            let last = divisors(device(fixed, per_full))[200..].to_vec();
+            assert!(
+                last.iter().all(|divisor| *divisor == 2),
+                "{fixed} + {per_full} ms"
+            );
+        }
+    }
+
+    /// Only where half takes over a quarter of a second.
+    #[test]
+    fn a_very_slow_device_shows_a_quarter() {
+        assert_eq!(divisors(device(5.0, 8000.0)).last(), Some(&4));
+        assert!(divisors(device(0.0, 999.0)).iter().all(|divisor| *divisor < 4));
+    }
+
+    /// Shaders that are compiled, noise that is made: two in a row, now and then.
+    #[test]
+    fn a_slow_preview_now_and_then_changes_nothing() {
+        let now_and_then = |i: usize, _| if i % 20 < 2 { 3000.0 } else { 100.0 };
+        assert!(divisors(now_and_then).iter().all(|divisor| *divisor == 2));
+    }
+
+    /// The machine was busy for a while.
+    #[test]
+    fn what_was_lost_comes_back_soon() {
+        let busy = |i: usize, divisor| device(10.0, 150.0)(i, divisor) * if i < 40 { 10.0 } else { 1.0 };
+        let seen = divisors(busy);
+        assert_eq!((seen[39], seen[42]), (4, 2));
     }
 
     #[test]
@@ -91,13 +148,13 @@ mod tests {
             (5.0, 2000.0),
             (80.0, 10.0),
         ] {
-            let changes = divisors(fixed, per_full)
+            let changes = divisors(device(fixed, per_full))
                 .windows(2)
                 .filter(|pair| pair[0] != pair[1])
                 .count();
-            // Two steps to where it belongs, and a try every 40 previews that goes up and comes back.
+            // Two steps to where it belongs, and tries after 20, 40 and then every 80 previews that go up and come back.
             assert!(
-                changes <= 2 + 2 * 200 / 40,
+                changes <= 2 + 2 * (2 + 400 / 80),
                 "{fixed} + {per_full} ms: {changes} changes"
             );
         }
