@@ -28,8 +28,8 @@ const MOST_DOMES: usize = 2;
 const BLOCKS: std::ops::RangeInclusive<u32> = 256..=3072;
 /// Cells to the side of a dome.
 const CELLS: std::ops::RangeInclusive<u32> = 64..=4096;
-/// Longer side of the smallest picture whose cells are as large as its pixels warrant: smaller previews are enlarged
-/// where they are shown.
+/// Longer side of the smallest picture whose cells are as large as its pixels warrant. A smaller preview is enlarged where
+/// it is shown: its cells are up to twice as fine, as if it were of that size.
 const SEEN_PX: f64 = 900.0;
 /// Pixels between the places at which the picture is asked where it looks.
 const ASK_PX: u32 = 8;
@@ -128,10 +128,9 @@ const fn whole(value: f64) -> u32 {
     value as u32
 }
 
-/// Cells to a side, so that they are about as large as four pixels, which span that angle each; of a small picture, as
-/// large as those of the same view at [`SEEN_PX`].
+/// Cells to a side, so that they are about as large as four pixels, which span that angle each.
 fn cells_for(pixel_angle: f64, size_px: UVec2) -> u32 {
-    let finer = (SEEN_PX / f64::from(size_px.max_element())).max(1.0);
+    let finer = (SEEN_PX / f64::from(size_px.max_element())).clamp(1.0, 2.0);
     let cells = (finer / pixel_angle).clamp(f64::from(*CELLS.start()), f64::from(*CELLS.end()));
     whole(cells).next_multiple_of(2 * BLOCK_CELLS)
 }
@@ -311,5 +310,19 @@ impl CloudDomes {
         self.kept.push_front(dome);
         self.kept.truncate(MOST_DOMES);
         view
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Of one view at many sizes: what is shown enlarged is not blurred once more, and small pictures stay cheap.
+    #[test]
+    fn small_previews_have_finer_cells() {
+        let cells = |width: u32| cells_for(1.0 / f64::from(width), UVec2::new(width, width / 2));
+        assert_eq!(cells(550), cells(900));
+        assert_eq!((cells(320), cells(1280)), (640, 1280));
+        assert_eq!(cells(16), *CELLS.start());
     }
 }

@@ -15,7 +15,7 @@ const SLOW_IN_A_ROW: u32 = 3;
 /// that it may, leaving room for what varies from preview to preview.
 const SURELY: f64 = 0.9 / 4.0;
 /// Part of the work is the same at any size: full and half size are also tried where the time now is so much of what it
-/// may be. Below half the light of clouds takes most of it, which is as much for a quarter.
+/// may be; half sooner than full size, since a quarter is so soft.
 const PERHAPS: [f64; 2] = [1.0 / 3.0, 0.6];
 /// Twice as wide and high was too slow: that many previews pass before it is perhaps tried again, and each time it fails
 /// twice as many.

@@ -227,7 +227,14 @@ impl Session {
         match done {
             Ok((shot, refining)) => {
                 self.told_to_wait = false;
-                if let Stage::Preview { divisor } = shot.stage {
+                // A frame that had been kept says nothing of how long others take.
+                let was_made = shot
+                    .held
+                    .as_ref()
+                    .is_some_and(|held| !held.frame.passes.is_empty());
+                if let Stage::Preview { divisor } = shot.stage
+                    && was_made
+                {
                     self.pace.learn(divisor, shot.took);
                 }
                 // A change that came meanwhile has set its own next stage.
