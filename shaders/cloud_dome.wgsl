@@ -1,15 +1,15 @@
 // Which clouds are seen in the directions of some blocks of the dome.
-import package::lib::cloud_march::{march_clouds, noted};
+import package::lib::cloud_march::march_clouds;
 import package::lib::cloud_ray::cloud_ray;
 import package::lib::dome::{BLOCK_CORNERS, BLOCK_CELLS, BLOCK_SIDE, Dome, dome_direction};
 import package::lib::view_ray::Observer;
 
-@group(0) @binding(18) var<uniform> dome: Dome;
-@group(0) @binding(19) var<uniform> observer: Observer;
+@group(0) @binding(10) var<uniform> dome: Dome;
+@group(0) @binding(11) var<uniform> observer: Observer;
 // Column and row of each block, and where it is kept.
-@group(0) @binding(20) var<storage, read> blocks: array<vec4u>;
-// Three vectors a corner, as `Nodes` has them.
-@group(0) @binding(21) var<storage, read_write> nodes: array<vec4f>;
+@group(0) @binding(12) var<storage, read> blocks: array<vec4u>;
+// Six vectors a corner, as `Nodes` has them.
+@group(0) @binding(13) var<storage, read_write> nodes: array<vec4f>;
 
 // Angle of a cell on the average, times their number to a side: √(4π).
 const CELL = 3.545;
@@ -27,9 +27,12 @@ fn cloud_dome(@builtin(global_invocation_id) id: vec3u) {
     let block = blocks[id.y];
     let corner = block.xy * BLOCK_CELLS + vec2u(id.x % BLOCK_SIDE, id.x / BLOCK_SIDE);
     let direction = dome_direction(vec2f(corner) / f32(dome.cells));
-    march_clouds(cloud_ray(observer, direction, jitter_of(vec2f(corner)), CELL / f32(dome.cells)));
-    let at = 3u * (block.z * BLOCK_CORNERS + id.x);
-    nodes[at] = noted.distance_m;
-    nodes[at + 1u] = noted.share;
-    nodes[at + 2u] = noted.kind;
+    let seen = march_clouds(cloud_ray(observer, direction, jitter_of(vec2f(corner)), CELL / f32(dome.cells)));
+    let at = 6u * (block.z * BLOCK_CORNERS + id.x);
+    nodes[at] = seen.first.distance_m;
+    nodes[at + 1u] = seen.first.share;
+    nodes[at + 2u] = seen.first.kind;
+    nodes[at + 3u] = seen.second.distance_m;
+    nodes[at + 4u] = seen.second.share;
+    nodes[at + 5u] = seen.second.kind;
 }

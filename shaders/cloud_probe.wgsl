@@ -1,6 +1,7 @@
 // The clouds at exact directions.
 import package::lib::cloud_march::march_clouds;
 import package::lib::cloud_ray::cloud_ray;
+import package::lib::cloud_seen::clouds_seen;
 import package::lib::view_ray::Observer;
 
 @group(0) @binding(18) var<storage, read> directions: array<vec4f>;
@@ -14,6 +15,6 @@ fn cloud_probe(@builtin(global_invocation_id) id: vec3u) {
         return;
     }
     // The middle of each step: an answer stands alone, no neighbour averages it.
-    let seen = march_clouds(cloud_ray(observer, directions[id.x].xyz, 0.5, 0.0));
-    answers[id.x] = vec4f(seen.light, seen.left);
+    let ray = cloud_ray(observer, directions[id.x].xyz, 0.5, 0.0);
+    answers[id.x] = clouds_seen(ray, march_clouds(ray));
 }

@@ -1,5 +1,5 @@
 // For each band and sheet of clouds the optical depth towards the light, by where the way to it crosses their middle.
-import package::lib::cloud::{band_extinction, clouds, sheet_optical_depth};
+import package::lib::cloud::{band_at, band_extinction, clouds, sheet_optical_depth};
 import package::lib::cloud_shade::{CloudShade, LOWER_SHARES, UPPER_SHARES, depth_to_map, light_cosine, shade_place};
 
 struct Shadow {
@@ -42,7 +42,7 @@ fn cloud_shadow(@builtin(global_invocation_id) id: vec3u) {
         upper = vec4f(sheet_optical_depth(clouds.sheets[id.z - clouds.band_count], p, middle_m) / abs(mu));
         lower = upper;
     } else {
-        let band = clouds.bands[id.z];
+        let band = band_at(id.z);
         var h = band.top_m;
         var depth = 0.0;
         for (var k = 0u; k < 8u; k++) {

@@ -1,6 +1,7 @@
-// The clouds before every pixel of one tile.
+// Which clouds every pixel of one tile sees.
 import package::lib::camera::{Camera, sight_at};
 import package::lib::cloud_march::march_clouds;
+import package::lib::cloud_nodes::Nodes;
 import package::lib::cloud_ray::cloud_ray;
 import package::lib::view_ray::Observer;
 
@@ -14,11 +15,11 @@ struct Tile {
     stride_px: u32,
 }
 
-@group(0) @binding(18) var<uniform> camera: Camera;
-@group(0) @binding(19) var<uniform> tile: Tile;
-@group(0) @binding(20) var<uniform> observer: Observer;
-// Radiance to add in R, G, B; alpha is the share of what lies behind that comes through.
-@group(0) @binding(21) var table: texture_storage_2d<rgba32float, write>;
+@group(0) @binding(10) var<uniform> camera: Camera;
+@group(0) @binding(11) var<uniform> tile: Tile;
+@group(0) @binding(12) var<uniform> observer: Observer;
+// Six vectors a pixel, as `Nodes` has them.
+@group(0) @binding(13) var<storage, read_write> nodes: array<vec4f>;
 
 // Interleaved gradient noise (Jimenez 2014): even over every 3×3 pixels, so that what is left of it is fine-grained.
 fn jitter_of(pixel: vec2f) -> f32 {
@@ -32,12 +33,15 @@ fn cloud_view(@builtin(global_invocation_id) id: vec3u) {
     }
     let pixel = vec2f(tile.origin_px + tile.stride_px * id.xy);
     let sight = sight_at(camera, PROJECTION, pixel + 0.5);
-    var value = vec4f(0.0, 0.0, 0.0, 1.0);
+    var seen: Nodes;
     if sight.seen {
-        let jitter = jitter_of(pixel);
-        let ray = cloud_ray(observer, sight.direction, jitter, 0.0);
-        let seen = march_clouds(ray);
-        value = vec4f(seen.light, seen.left);
+        seen = march_clouds(cloud_ray(observer, sight.direction, jitter_of(pixel), 0.0));
     }
-    textureStore(table, id.xy, value);
+    let at = 6u * (id.y * tile.size_px.x + id.x);
+    nodes[at] = seen.first.distance_m;
+    nodes[at + 1u] = seen.first.share;
+    nodes[at + 2u] = seen.first.kind;
+    nodes[at + 3u] = seen.second.distance_m;
+    nodes[at + 4u] = seen.second.share;
+    nodes[at + 5u] = seen.second.kind;
 }

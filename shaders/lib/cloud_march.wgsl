@@ -1,19 +1,8 @@
-// Light along a ray through the clouds. Whoever imports from here binds what `lib/cloud_source.wgsl` names.
-import package::lib::cloud::{CloudSheet, band_extinction, clouds, sheet_optical_depth};
+// Which clouds a ray sees. Whoever imports from here binds what `lib/cloud_ray.wgsl` names.
+import package::lib::cloud::{CloudSheet, band_at, band_extinction, clouds, one_or, sheet_optical_depth};
 import package::lib::cloud_nodes::{NODE_SHARE, Nodes, with_node};
-import package::lib::cloud_source::{
-    CloudRay, Surroundings, air_before, mixed, place_at, sheet_source, source_at, surroundings, unlit_air, view,
-};
+import package::lib::cloud_ray::{CloudRay, place_at, view};
 import package::lib::geometry::{altitude_after, shell_stretch};
-
-// True to note the places that are seen instead of their light.
-override NODES: bool = false;
-
-// What clouds do to a ray: the radiance behind them comes through by `left`, and `light` is added.
-struct CloudsSeen {
-    light: vec3f,
-    left: f32,
-}
 
 // Nothing is seen through what lets less through.
 const OPAQUE = 0.002;
@@ -24,10 +13,10 @@ const EMPTY = 4u;
 const WIDE = 3.0;
 // Within a cloud's bulk, where the detail noise has its edges, they are closer.
 const CLOSER = 1.5;
-// The light is found once for so many steps.
-const RESTS = 8.0;
-// A cloud that stands apart counts by itself if it is more than this.
-const LEAST_APART = 0.05;
+// A cloud that stands apart, or is longer than so many steps, counts by itself if it is more than this: between two of them
+// there may be sun.
+const LEAST_APART = 0.04;
+const SPREAD = 8.0;
 // Over which way clouds fade, where they are asked to.
 const HAZE_M = 3e4;
 // A ray through more air than this sees none of the clouds beyond.
@@ -35,22 +24,19 @@ const FARTHEST_M = 6e5;
 
 var<private> noted: Nodes;
 var<private> noted_count: u32;
+// What comes through all that is noted.
+var<private> left: f32;
 
+// `share` is of what comes through to it.
 fn note(share: f32, distance_m: f32, index: u32, extinction_per_m: f32) {
-    noted = with_node(noted, noted_count, distance_m, (1.0 - faded(distance_m)) * share, index, extinction_per_m);
+    let seen = left * share * (1.0 - faded(distance_m));
+    noted = with_node(noted, noted_count, distance_m, seen, index, extinction_per_m);
     noted_count += 1u;
+    left -= seen;
 }
 
-struct BandSeen {
-    light: vec3f,
-    left: f32,
-    // Where what is seen stands, by how much of it is seen.
-    distance_m: f32,
-}
-
-fn march_band(index: u32, ray: CloudRay, start_m: f32, stop_m: f32, left_before: f32) -> BandSeen {
-    let band = clouds.bands[index];
-    var seen = BandSeen(vec3f(0.0), 1.0, 0.0);
+fn march_band(index: u32, ray: CloudRay, start_m: f32, stop_m: f32) {
+    let band = band_at(index);
     let least_m = band.thickness_m / (128.0 * clouds.fineness);
     let growth = 0.5 * 0.0125 / clouds.fineness;
     // Each step is a cell, looked at somewhere in it; the last one ends where the band does.
@@ -58,35 +44,18 @@ fn march_band(index: u32, ray: CloudRay, start_m: f32, stop_m: f32, left_before:
     var empty = 0u;
     var within = false;
     var until_m = 0.0;
-    // What lights the clouds changes slowly: it is found where they begin and where the band ends.
-    var first: Surroundings;
-    var last: Surroundings;
-    var first_m = -1.0;
-    // Of what is seen, what no light has been found for yet: the share, where it stands and its extinction by that share.
+    // Of what is seen, what no node stands for yet: the share, where it is and its extinction by that share.
     var pending = vec3f(0.0);
-    let rests = u32(max(RESTS / max(clouds.fineness, 1.0), 1.0));
+    var begun_m = 0.0;
     let most = u32(f32(MOST_STEPS) * max(clouds.fineness, 0.25));
     for (var k = 0u; k < most; k++) {
-        let ends = t >= stop_m || seen.left * left_before <= OPAQUE || k + 1u == most;
-        // One place for the mean of some steps, and the same steps for all neighbours: devices run them in step.
-        let apart = pending.x >= NODE_SHARE || (pending.x > LEAST_APART && !within);
-        let due = ends || select(k % rests == 0u, apart, NODES);
-        for (var lit = pending.x > 0.0 && due; lit; lit = false) {
-            let at = pending.y / pending.x;
-            if NODES {
-                note(left_before * pending.x, at, index, pending.z / pending.x);
-                pending = vec3f(0.0);
-                continue;
-            }
-            let p = place_at(at, ray.direction);
-            let h = altitude_after(clouds.radius_m, view.altitude_m, ray.mu, at);
-            for (var begins = first_m < 0.0; begins; begins = false) {
-                first_m = at;
-                first = surroundings(p, h);
-                last = surroundings(place_at(stop_m, ray.direction), altitude_after(clouds.radius_m, view.altitude_m, ray.mu, stop_m));
-            }
-            let around = mixed(first, last, clamp((at - first_m) / max(stop_m - first_m, 1.0), 0.0, 1.0));
-            seen.light += pending.x * source_at(index, p, h, pending.z / pending.x, around, ray.lobes);
+        let through = left * (1.0 - pending.x);
+        let ends = t >= stop_m || through <= OPAQUE || k + 1u == most;
+        let share_seen = left * pending.x;
+        let spread = !within || t - begun_m > SPREAD * max(least_m, growth * t);
+        let apart = share_seen >= NODE_SHARE || (share_seen > LEAST_APART && spread);
+        for (var due = pending.x > 0.0 && (ends || apart); due; due = false) {
+            note(pending.x, pending.y / pending.x, index, pending.z / pending.x);
             pending = vec3f(0.0);
         }
         if ends {
@@ -113,27 +82,19 @@ fn march_band(index: u32, ray: CloudRay, start_m: f32, stop_m: f32, left_before:
             empty = 0u;
             continue;
         }
-        let passed = exp(-density.value * narrow_m);
-        let share = seen.left * (1.0 - passed);
+        let share = (1.0 - pending.x) * (1.0 - exp(-density.value * narrow_m));
+        begun_m = select(begun_m, t, pending.x == 0.0);
         pending += share * vec3f(1.0, at, density.value);
-        seen.distance_m += share * at;
-        seen.left *= passed;
         t += narrow_m;
     }
-    seen.distance_m = select(start_m, seen.distance_m / max(1.0 - seen.left, 1e-6), seen.left < 1.0 - 1e-6);
-    // What is left of an opaque cloud is nothing.
-    if seen.left * left_before <= OPAQUE {
-        seen.left = 0.0;
-    }
-    return seen;
 }
 
 // Places along each side of what a ray stands for, at which a sheet is looked at where nothing else evens it out.
 const SHEET_PLACES = 3;
 
-fn sheet_left(sheet: CloudSheet, p: vec3f, up: vec3f, ray: CloudRay, t: f32) -> f32 {
+fn sheet_passed(sheet: CloudSheet, p: vec3f, up: vec3f, ray: CloudRay, t: f32) -> f32 {
     let mu = max(abs(dot(up, ray.direction)), 0.02);
-    if !NODES {
+    if ray.spread == 0.0 {
         return exp(-sheet_optical_depth(sheet, p, sheet.height_m) / mu);
     }
     let level = ray.direction - dot(up, ray.direction) * up;
@@ -148,19 +109,14 @@ fn sheet_left(sheet: CloudSheet, p: vec3f, up: vec3f, ray: CloudRay, t: f32) -> 
     return sum / f32(SHEET_PLACES * SHEET_PLACES);
 }
 
-fn sheet_seen(index: u32, ray: CloudRay, t: f32, left_before: f32) -> BandSeen {
+fn note_sheet(index: u32, ray: CloudRay, t: f32) {
     let sheet = clouds.sheets[index];
     let p = place_at(t, ray.direction);
     let up = normalize(p + vec3f(0.0, 0.0, clouds.radius_m));
-    let left = sheet_left(sheet, p, up, ray, t);
-    if NODES {
-        if left < 1.0 {
-            note(left_before * (1.0 - left), t, FIRST_SHEET + index, 0.0);
-        }
-        return BandSeen(vec3f(0.0), left, t);
+    let passed = sheet_passed(sheet, p, up, ray, t);
+    if passed < 1.0 {
+        note(1.0 - passed, t, FIRST_SHEET + index, 0.0);
     }
-    let depth = sheet_optical_depth(sheet, p, sheet.height_m);
-    return BandSeen((1.0 - left) * sheet_source(index, p, depth, ray.lobes), left, t);
 }
 
 // The next thing along the ray, of those that begin at `t` or later: bands, then sheets.
@@ -184,8 +140,8 @@ fn nearer(best: Next, index: u32, start_m: f32, stop_m: f32, t: f32) -> Next {
 fn next_after(ray: CloudRay, t: f32) -> Next {
     var best = Next(NOTHING, FARTHEST_M + max(ray.air_from_m, 0.0), 0.0);
     let h = view.altitude_m;
-    for (var i = 0u; i < clouds.band_count; i++) {
-        let band = clouds.bands[i];
+    for (var i = 0u; i < one_or(clouds.band_count); i++) {
+        let band = band_at(i);
         let outer = shell_stretch(clouds.radius_m + band.top_m, h - band.top_m, ray.mu, ray.end_m);
         let inner = shell_stretch(clouds.radius_m + band.base_m, h - band.base_m, ray.mu, ray.end_m);
         let hollow = inner.x < inner.y;
@@ -209,35 +165,23 @@ fn next_after(ray: CloudRay, t: f32) -> Next {
     return best;
 }
 
-fn march_clouds(ray: CloudRay) -> CloudsSeen {
-    var seen = CloudsSeen(vec3f(0.0), 1.0);
+fn march_clouds(ray: CloudRay) -> Nodes {
+    left = 1.0;
     var t = 0.0;
     // Each band is crossed twice at most, each sheet too.
-    for (var k = 0u; k < 32u && seen.left > OPAQUE; k++) {
+    for (var k = 0u; k < 32u && left > OPAQUE; k++) {
         let next = next_after(ray, t);
         if next.index == NOTHING {
             break;
         }
-        var part: BandSeen;
         if next.index < FIRST_SHEET {
-            part = march_band(next.index, ray, next.start_m, next.stop_m, seen.left);
+            march_band(next.index, ray, next.start_m, next.stop_m);
         } else {
-            part = sheet_seen(next.index - FIRST_SHEET, ray, next.start_m, seen.left);
+            note_sheet(next.index - FIRST_SHEET, ray, next.start_m);
         }
-        let away = faded(part.distance_m);
-        part.left = mix(part.left, 1.0, away);
-        part.light *= 1.0 - away;
-        if !NODES {
-            let before = air_before(ray, part.distance_m);
-            seen.light += seen.left * (before.left * part.light + (1.0 - part.left) * (before.single + before.multiple));
-        }
-        seen.left *= part.left;
         t = next.start_m + 0.5;
     }
-    if !NODES {
-        seen.light -= unlit_air(ray);
-    }
-    return seen;
+    return noted;
 }
 
 // The control takes far clouds out of sight as S2 does, by a share that grows with the way.

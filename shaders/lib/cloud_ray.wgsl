@@ -1,9 +1,33 @@
-// The ray through the clouds in one direction. Whoever imports from here binds what `lib/cloud_source.wgsl` names.
-import package::lib::cloud_light::forward_lobes;
-import package::lib::cloud_source::{CloudRay, air, view};
+// A ray through the clouds. Whoever imports from here binds what `lib/cloud.wgsl` names, and then this.
+import package::lib::air::Air;
+import package::lib::cloud::clouds;
 import package::lib::geometry::{angle_of_cosine, distance_to_sphere};
+import package::lib::light::View;
 import package::lib::source::cosine_of_azimuth;
 import package::lib::view_ray::{Observer, enter_air};
+
+@group(0) @binding(8) var<uniform> air: Air;
+// The light that counts: the sun, or at night the moon.
+@group(0) @binding(9) var<uniform> view: View;
+
+struct CloudRay {
+    direction: vec3f,
+    mu: f32,
+    // With the light.
+    nu: f32,
+    azimuth: f32,
+    zenith_angle: f32,
+    ground: bool,
+    // To the ground, or farther than anything.
+    end_m: f32,
+    // The stretch in the air.
+    air_from_m: f32,
+    air_length_m: f32,
+    // Even over 0 to 1, from pixel to pixel.
+    jitter: f32,
+    // Angle that it stands for.
+    spread: f32,
+}
 
 // A ray that nothing stops.
 const ENDLESS_M = 1e12;
@@ -19,5 +43,9 @@ fn cloud_ray(observer: Observer, direction: vec3f, jitter: f32, spread: f32) -> 
     let azimuth = angle_of_cosine(cosine_of_azimuth(mu, view.mu_s, nu));
     let to_top_m = distance_to_sphere(air.radius_m + air.top_m, view.altitude_m - air.top_m, mu);
     let from_m = select(0.0, to_top_m, view.altitude_m > air.top_m);
-    return CloudRay(direction, mu, nu, azimuth, angle_of_cosine(mu), ground, end_m, from_m, max(entry.length_m, 0.0), jitter, spread, forward_lobes(nu));
+    return CloudRay(direction, mu, nu, azimuth, angle_of_cosine(mu), ground, end_m, from_m, max(entry.length_m, 0.0), jitter, spread);
+}
+
+fn place_at(t: f32, direction: vec3f) -> vec3f {
+    return clouds.place_m + t * direction;
 }

@@ -1,18 +1,15 @@
-// The light of a place in the clouds, and the air before it. Whoever imports from here binds what `lib/cloud.wgsl` names, and
-// then this.
+// The light of a place in the clouds, and the air before it. Whoever imports from here binds what `lib/cloud_ray.wgsl` names,
+// and then this.
 import package::lib::aerial::aerial_to;
-import package::lib::air::Air;
-import package::lib::cloud::{CloudBand, band_extinction, clouds};
+import package::lib::cloud::{CloudBand, band_at, band_extinction, clouds};
 import package::lib::cloud_light::{Lobes, ambient_source, lit_source};
+import package::lib::cloud_ray::{CloudRay, air, view};
 import package::lib::cloud_shade::{CloudShade, LightDepth, light_cosine, light_depth_within, shade_depth};
 import package::lib::geometry::{altitude_after, distance_to_top};
-import package::lib::light::{View, scattered_radiance};
+import package::lib::light::scattered_radiance;
 import package::lib::tables::{SkyViewRay, light_from_table, sun_cosine_unit, unit_to_coordinate};
 import package::lib::transmittance::transmittance_to_space;
 
-@group(0) @binding(8) var<uniform> air: Air;
-// The light that counts: the sun, or at night the moon.
-@group(0) @binding(9) var<uniform> view: View;
 @group(0) @binding(10) var<uniform> shade: CloudShade;
 @group(0) @binding(11) var linear_clamp: sampler;
 @group(0) @binding(12) var transmittance_table: texture_2d<f32>;
@@ -21,30 +18,6 @@ import package::lib::transmittance::transmittance_to_space;
 @group(0) @binding(15) var aerial_mie: texture_3d<f32>;
 @group(0) @binding(16) var aerial_multiple: texture_3d<f32>;
 @group(0) @binding(17) var shade_maps: texture_2d_array<f32>;
-
-struct CloudRay {
-    direction: vec3f,
-    mu: f32,
-    // With the light.
-    nu: f32,
-    azimuth: f32,
-    zenith_angle: f32,
-    ground: bool,
-    // To the ground, or farther than anything.
-    end_m: f32,
-    // The stretch in the air.
-    air_from_m: f32,
-    air_length_m: f32,
-    // Even over 0 to 1, from pixel to pixel.
-    jitter: f32,
-    // Angle that it stands for.
-    spread: f32,
-    lobes: Lobes,
-}
-
-fn place_at(t: f32, direction: vec3f) -> vec3f {
-    return clouds.place_m + t * direction;
-}
 
 // Light in the air up to a distance, and what the air lets through.
 struct AirBefore {
@@ -103,10 +76,6 @@ fn surroundings(p: vec3f, altitude_m: f32) -> Surroundings {
     return Surroundings(sun, even * sky * above, even * (ground + sky * (1.0 - above)), mu_s);
 }
 
-fn mixed(a: Surroundings, b: Surroundings, s: f32) -> Surroundings {
-    return Surroundings(mix(a.sun, b.sun, s), mix(a.above, b.above, s), mix(a.below, b.below, s), mix(a.mu_s, b.mu_s, s));
-}
-
 // With so many steps the light's way is followed to its ends.
 const ALL_LIGHT_STEPS = 64u;
 // With fewer, over this share of the shape noise's scale. Within it density changes faster than the maps can hold, which
@@ -132,7 +101,7 @@ fn depth_beside(index: u32, band: CloudBand, p: vec3f, altitude_m: f32, mu_s: f3
 
 // Source function of a place in a band, W/m²/sr. With no steps on the light's way its optical depth is that of the maps.
 fn source_at(index: u32, p: vec3f, altitude_m: f32, extinction_per_m: f32, around: Surroundings, lobes: Lobes) -> vec3f {
-    let band = clouds.bands[index];
+    let band = band_at(index);
     let mu_s = around.mu_s;
     let thickness = band.top_m - band.base_m;
     var way: LightDepth;

@@ -24,7 +24,7 @@ const BLOCK_CELLS: u32 = 16;
 const BLOCK_CORNERS: u32 = (BLOCK_CELLS + 1) * (BLOCK_CELLS + 1);
 /// Domes that are kept: several viewers share the device.
 const MOST_DOMES: usize = 2;
-/// Blocks of one dome, 18 KB each.
+/// Blocks of one dome, 32 KB each.
 const BLOCKS: std::ops::RangeInclusive<u32> = 256..=3072;
 /// Cells to the side of a dome.
 const CELLS: std::ops::RangeInclusive<u32> = 64..=4096;

@@ -288,6 +288,11 @@ impl<'a> CloudSky<'a> {
         }
     }
 
+    /// The shaders' constant that is 1 where there is a single layer of volume; sheets are counted apart.
+    pub(crate) const fn one_layer(&self) -> (&'static str, f64) {
+        ("ONE_LAYER", if self.volumes.len() == 1 { 1.0 } else { 0.0 })
+    }
+
     /// Maps of shadows that there are.
     pub(crate) fn shade_count(&self) -> u32 {
         let (_, bands) = self.layers_and_bands();

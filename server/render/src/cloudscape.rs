@@ -69,6 +69,7 @@ pub(crate) struct Cloudscape {
     pub(crate) shadow: Arc<Table>,
     place_m: Vec3,
     light: Vec3,
+    one_layer: (&'static str, f64),
     made_from: Fingerprint,
 }
 
@@ -122,11 +123,16 @@ impl Cloudscape {
     }
 
     /// The first bindings of every shader that marches through clouds.
-    pub(crate) fn binds<'a>(&'a self, parts: &'a CloudParts) -> Vec<Bind<'a>> {
+    pub(crate) fn march_binds<'a>(&'a self, parts: &'a CloudParts) -> Vec<Bind<'a>> {
         let mut binds = self.textures.binds(&parts.clouds);
+        binds.extend([Bind::Buffer(&parts.air), Bind::Buffer(&parts.view)]);
+        binds
+    }
+
+    /// The first bindings of every shader that finds the clouds' light.
+    pub(crate) fn binds<'a>(&'a self, parts: &'a CloudParts) -> Vec<Bind<'a>> {
+        let mut binds = self.march_binds(parts);
         binds.extend([
-            Bind::Buffer(&parts.air),
-            Bind::Buffer(&parts.view),
             Bind::Buffer(&parts.shade),
             Bind::LinearClamp,
             Bind::Table(&self.transmittance.view),
@@ -137,6 +143,11 @@ impl Cloudscape {
             Bind::Table(&self.shadow.view),
         ]);
         binds
+    }
+
+    /// What spares the shaders the search for the layer.
+    pub(crate) const fn one_layer(&self) -> (&'static str, f64) {
+        self.one_layer
     }
 
     /// What the ground's shadows need.
@@ -201,11 +212,11 @@ const fn fineness(quality: Quality) -> f64 {
 }
 
 impl CloudPasses {
-    pub(crate) fn new(gpu: &Gpu, disk_cache: Option<DiskCache>) -> Self {
+    pub(crate) const fn new(disk_cache: Option<DiskCache>) -> Self {
         Self {
             noise: CloudNoise::new(disk_cache),
             aerial: Aerial::new(),
-            shadow: CloudShadow::new(gpu),
+            shadow: CloudShadow::new(),
             dome: CloudDomes::new(),
             pictures: Memo::new(4),
         }
@@ -298,7 +309,7 @@ impl CloudPasses {
             &textures,
             (&clouds, &shade),
             towards,
-            sky.shade_count(),
+            (sky.shade_count(), sky.one_layer()),
             quality,
         );
         let observer = Part::new(&light.stand.observer(tables.plan.pixel_steps()));
@@ -325,6 +336,7 @@ impl CloudPasses {
             shadow,
             place_m: crate::uniforms::narrow3(scene.camera.position_m),
             light: light.stand.sun.as_vec3(),
+            one_layer: sky.one_layer(),
             made_from,
         }
     }

@@ -80,7 +80,7 @@ impl Engine {
                 ExposurePass::new(&gpu),
                 Tone::new(),
                 Probe::new(),
-                CloudPasses::new(&gpu, disk_cache),
+                CloudPasses::new(disk_cache),
             ))
         })?;
         let (transmittance, multi_scattering, sky_view, stars, exposure, tone, probe, clouds) = passes;

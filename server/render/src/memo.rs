@@ -22,21 +22,38 @@ impl Fingerprint {
 
 /// The latest outputs of a pass; several, since several viewers share the device.
 pub(crate) struct Memo<T> {
-    kept: VecDeque<(Fingerprint, Arc<T>)>,
-    most: usize,
+    kept: VecDeque<Kept<T>>,
+    most: u64,
+}
+
+struct Kept<T> {
+    made_from: Fingerprint,
+    weight: u64,
+    output: Arc<T>,
 }
 
 impl<T> Memo<T> {
-    pub(crate) const fn new(most: usize) -> Self {
+    /// Holds what weighs that much together, and the latest output at least.
+    pub(crate) const fn new(most: u64) -> Self {
         Self {
             kept: VecDeque::new(),
             most,
         }
     }
 
-    /// The output with this fingerprint, made if it is not there.
+    /// The output with this fingerprint, made if it is not there. Weighs 1.
     pub(crate) fn get_or(&mut self, fingerprint: Fingerprint, make: impl FnOnce() -> T) -> Arc<T> {
-        let Ok(output) = self.try_get_or(fingerprint, || Ok::<_, Infallible>(make()));
+        self.get_or_weighing(1, fingerprint, make)
+    }
+
+    /// As [`Self::get_or`], of what weighs that much.
+    pub(crate) fn get_or_weighing(
+        &mut self,
+        weight: u64,
+        fingerprint: Fingerprint,
+        make: impl FnOnce() -> T,
+    ) -> Arc<T> {
+        let Ok(output) = self.find_or(weight, fingerprint, || Ok::<_, Infallible>(make()));
         output
     }
 
@@ -46,16 +63,30 @@ impl<T> Memo<T> {
         fingerprint: Fingerprint,
         make: impl FnOnce() -> Result<T, E>,
     ) -> Result<Arc<T>, E> {
-        if let Some(at) = self.kept.iter().position(|(f, _)| *f == fingerprint)
-            && let Some(entry) = self.kept.remove(at)
-        {
-            let output = Arc::clone(&entry.1);
-            self.kept.push_front(entry);
-            return Ok(output);
+        self.find_or(1, fingerprint, make)
+    }
+
+    fn find_or<E>(
+        &mut self,
+        weight: u64,
+        made_from: Fingerprint,
+        make: impl FnOnce() -> Result<T, E>,
+    ) -> Result<Arc<T>, E> {
+        let there = self.kept.iter().position(|kept| kept.made_from == made_from);
+        let kept = match there.and_then(|at| self.kept.remove(at)) {
+            Some(kept) => kept,
+            None => Kept {
+                made_from,
+                weight,
+                output: Arc::new(make()?),
+            },
+        };
+        let output = Arc::clone(&kept.output);
+        self.kept.push_front(kept);
+        let mut whole: u64 = self.kept.iter().map(|kept| kept.weight).sum();
+        while whole > self.most && self.kept.len() > 1 {
+            whole -= self.kept.pop_back().map_or(0, |kept| kept.weight);
         }
-        let output = Arc::new(make()?);
-        self.kept.push_front((fingerprint, Arc::clone(&output)));
-        self.kept.truncate(self.most);
         Ok(output)
     }
 }

@@ -12,7 +12,7 @@ pub(crate) struct CloudDome {
 }
 
 /// Floats of a corner: `Nodes` of `lib/cloud_nodes.wgsl`.
-pub(crate) const NODE_FLOATS: u64 = 12;
+pub(crate) const NODE_FLOATS: u64 = 24;
 
 impl CloudDome {
     pub(crate) const fn new() -> Self {
@@ -24,14 +24,14 @@ impl CloudDome {
     pub(crate) fn run(&mut self, recorder: &mut Recorder<'_>, scape: &Cloudscape, blocks: &Blocks<'_>) {
         let gpu = recorder.gpu;
         let parts = scape.upload(gpu);
-        let mut binds = scape.binds(&parts);
+        let mut binds = scape.march_binds(&parts);
         binds.extend([
             Bind::Buffer(blocks.dome),
             Bind::Buffer(&parts.observer),
             Bind::Buffer(&blocks.list),
             Bind::Buffer(blocks.nodes),
         ]);
-        let kernel = self.kernels.get(gpu, &[("NODES", 1.0)]);
+        let kernel = self.kernels.get(gpu, &[scape.one_layer()]);
         recorder.dispatch(kernel, &binds, blocks.threads());
     }
 }

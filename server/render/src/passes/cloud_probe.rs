@@ -102,7 +102,7 @@ fn march(
         Bind::Buffer(&parts.observer),
         Bind::Buffer(&answers),
     ]);
-    recorder.dispatch(kernels.get(gpu, &[]), &binds, [count, 1, 1]);
+    recorder.dispatch(kernels.get(gpu, &[scape.one_layer()]), &binds, [count, 1, 1]);
     answers
 }
 

@@ -3,8 +3,8 @@
 use super::Table;
 use crate::{
     cloudscape::CloudTextures,
-    gpu::{Gpu, Shape},
-    kernel::{Bind, Kernel, Recorder},
+    gpu::Shape,
+    kernel::{Bind, Recorder, Variants},
     memo::{Fingerprint, Memo},
     shader::{self, Texel},
     uniforms::{Part, clouds::ShadowUniform},
@@ -13,7 +13,7 @@ use std::sync::Arc;
 use welkin_scene::Quality;
 
 pub(crate) struct CloudShadow {
-    kernel: Kernel,
+    kernels: Variants,
     memo: Memo<Table>,
 }
 
@@ -26,9 +26,9 @@ const fn side(quality: Quality) -> u32 {
 }
 
 impl CloudShadow {
-    pub(crate) fn new(gpu: &Gpu) -> Self {
+    pub(crate) const fn new() -> Self {
         Self {
-            kernel: Kernel::new(gpu, &shader::CLOUD_SHADOW),
+            kernels: Variants::new(&shader::CLOUD_SHADOW),
             memo: Memo::new(4),
         }
     }
@@ -40,7 +40,7 @@ impl CloudShadow {
         textures: &CloudTextures,
         (clouds, shade): (&Part, &Part),
         light: ShadowUniform,
-        count: u32,
+        (count, one_layer): (u32, (&'static str, f64)),
         quality: Quality,
     ) -> Arc<Table> {
         let light = Part::new(&light);
@@ -65,7 +65,7 @@ impl CloudShadow {
             let light = light.upload(gpu, "shadow");
             let mut binds = textures.binds(&clouds);
             binds.extend([Bind::Buffer(&shade), Bind::Buffer(&light), Bind::Table(&view)]);
-            recorder.dispatch(&self.kernel, &binds, [side, side, count]);
+            recorder.dispatch(self.kernels.get(gpu, &[one_layer]), &binds, [side, side, count]);
             Table { view, made_from }
         })
     }

@@ -3,6 +3,7 @@
 use super::{
     Table,
     cloud_view::CloudView,
+    cloud_view_light::CloudViewLight,
     tone::{ToneInputs, curve_code},
 };
 use crate::{
@@ -40,6 +41,7 @@ const CLOUD_GRAIN: UVec2 = UVec2::new(2, 2);
 pub(crate) struct Sky {
     kernels: Variants,
     clouds: CloudView,
+    clouds_light: CloudViewLight,
     lattices: [Lattice; 2],
 }
 
@@ -106,6 +108,7 @@ impl Sky {
         Self {
             kernels: Variants::new(&shader::SKY),
             clouds: CloudView::new(),
+            clouds_light: CloudViewLight::new(),
             lattices: [Lattice::default(), Lattice::default()],
         }
     }
@@ -136,7 +139,8 @@ impl Sky {
         let dome = inputs.clouds.and_then(|c| c.dome);
         let clouds = inputs.clouds.filter(|_| dome.is_none()).map(|c| {
             let camera = (inputs.camera, projection);
-            self.clouds.run(recorder, c.scape, camera, tile)
+            let nodes = self.clouds.run(recorder, c.scape, camera, tile);
+            self.clouds_light.run(recorder, c.scape, camera, tile, &nodes)
         });
         let (shade, cloud_frame) = inputs.clouds.map_or_else(
             || (Part::new(&ShadeUniform::default()), CloudFrameUniform::default()),

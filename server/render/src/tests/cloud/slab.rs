@@ -7,7 +7,7 @@ use crate::{
     cloudscape::CloudLight,
     gpu::Gpu,
     kernel::Recorder,
-    passes::cloud_view::CloudView,
+    passes::{cloud_view::CloudView, cloud_view_light::CloudViewLight},
     tests::{aerial::tables, engine, read_table},
     uniforms::{Part, TileUniform, ViewUniform},
 };
@@ -34,7 +34,9 @@ pub(super) fn look(gpu: &Gpu, scene: &Scene, assets: &SceneAssets, size_px: UVec
         size_px,
         stride_px: 1,
     };
-    let seen = CloudView::new().run(&mut recorder, &scape, (&camera, tables.plan.projection), tile);
+    let camera = (&camera, tables.plan.projection);
+    let nodes = CloudView::new().run(&mut recorder, &scape, camera, tile);
+    let seen = CloudViewLight::new().run(&mut recorder, &scape, camera, tile, &nodes);
     recorder.finish(&[], |_| ()).unwrap();
     read_table(gpu, &seen.view, 0)
 }

@@ -1,0 +1,54 @@
+//! The light of the clouds that every pixel of a tile sees.
+
+use super::{Table, cloud_view::TileNodes};
+use crate::{
+    cloudscape::Cloudscape,
+    gpu::Shape,
+    kernel::{Bind, Recorder, Variants},
+    memo::Fingerprint,
+    shader::{self, Texel},
+    uniforms::{Part, TileUniform},
+};
+
+pub(crate) struct CloudViewLight {
+    kernels: Variants,
+}
+
+impl CloudViewLight {
+    pub(crate) const fn new() -> Self {
+        Self {
+            kernels: Variants::new(&shader::CLOUD_VIEW_LIGHT),
+        }
+    }
+
+    /// A table of the tile's size: what to add in R, G and B, and what comes through in alpha.
+    pub(crate) fn run(
+        &mut self,
+        recorder: &mut Recorder<'_>,
+        scape: &Cloudscape,
+        (camera, projection): (&Part, u32),
+        tile: TileUniform,
+        nodes: &TileNodes,
+    ) -> Table {
+        let gpu = recorder.gpu;
+        let size_px = tile.size_px;
+        let view = gpu.written("cloud_view_light", [size_px.x, size_px.y, 1], Shape::Flat, Texel::Float);
+        let parts = scape.upload(gpu);
+        let place = Part::new(&tile);
+        let (camera, place) = (camera.upload(gpu, "camera"), place.upload(gpu, "tile"));
+        let mut binds = scape.binds(&parts);
+        binds.extend([
+            Bind::Buffer(&camera),
+            Bind::Buffer(&place),
+            Bind::Buffer(&parts.observer),
+            Bind::Buffer(&nodes.buffer),
+            Bind::Table(&view),
+        ]);
+        let constants = [scape.one_layer(), ("PROJECTION", f64::from(projection))];
+        recorder.dispatch(self.kernels.get(gpu, &constants), &binds, [size_px.x, size_px.y, 1]);
+        Table {
+            view,
+            made_from: Fingerprint::of("one tile"),
+        }
+    }
+}

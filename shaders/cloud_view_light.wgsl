@@ -1,0 +1,40 @@
+// The light of the clouds that every pixel of one tile sees.
+import package::lib::camera::{Camera, sight_at};
+import package::lib::cloud_nodes::{FourNodes, Nodes};
+import package::lib::cloud_ray::cloud_ray;
+import package::lib::cloud_seen::clouds_seen;
+import package::lib::view_ray::Observer;
+
+// As `sight_at` numbers it.
+override PROJECTION: u32 = 0u;
+
+struct Tile {
+    origin_px: vec2u,
+    size_px: vec2u,
+    // From one pixel of the tile to the next in the frame.
+    stride_px: u32,
+}
+
+@group(0) @binding(18) var<uniform> camera: Camera;
+@group(0) @binding(19) var<uniform> tile: Tile;
+@group(0) @binding(20) var<uniform> observer: Observer;
+// Six vectors a pixel, as `Nodes` has them.
+@group(0) @binding(21) var<storage, read> nodes: array<vec4f>;
+// Radiance to add in R, G, B; alpha is the share of what lies behind that comes through.
+@group(0) @binding(22) var table: texture_storage_2d<rgba32float, write>;
+
+@compute @workgroup_size(8, 8)
+fn cloud_view_light(@builtin(global_invocation_id) id: vec3u) {
+    if any(id.xy >= tile.size_px) {
+        return;
+    }
+    let sight = sight_at(camera, PROJECTION, vec2f(tile.origin_px + tile.stride_px * id.xy) + 0.5);
+    var value = vec4f(0.0, 0.0, 0.0, 1.0);
+    if sight.seen {
+        let ray = cloud_ray(observer, sight.direction, 0.5, 0.0);
+        let k = 6u * (id.y * tile.size_px.x + id.x);
+        let first = FourNodes(nodes[k], nodes[k + 1u], nodes[k + 2u]);
+        value = clouds_seen(ray, Nodes(first, FourNodes(nodes[k + 3u], nodes[k + 4u], nodes[k + 5u])));
+    }
+    textureStore(table, id.xy, value);
+}

@@ -1,0 +1,52 @@
+// The light of the clouds that a ray sees. Whoever imports from here binds what `lib/cloud_source.wgsl` names.
+import package::lib::cloud::{clouds, sheet_optical_depth};
+import package::lib::cloud_light::forward_lobes;
+import package::lib::cloud_march::{FIRST_SHEET, OPAQUE};
+import package::lib::cloud_nodes::{NODES, Nodes};
+import package::lib::cloud_ray::{CloudRay, place_at, view};
+import package::lib::cloud_source::{AirBefore, Surroundings, air_before, sheet_source, source_at, surroundings, unlit_air};
+import package::lib::geometry::altitude_after;
+
+// What lights a place, and the air before it, serve for others that are no farther from it than this part of the way.
+const NEAR = 0.05;
+
+// Radiance to add in R, G, B; alpha is the share of what lies behind that comes through.
+fn clouds_seen(ray: CloudRay, nodes: Nodes) -> vec4f {
+    let lobes = forward_lobes(ray.nu);
+    var light = vec3f(0.0);
+    var around: Surroundings;
+    var before: AirBefore;
+    var around_m = -1.0;
+    for (var n = 0u; n < NODES; n++) {
+        var four = nodes.first;
+        if n >= 4u {
+            four = nodes.second;
+        }
+        let k = n % 4u;
+        for (var there = four.share[k] > 0.0; there; there = false) {
+            let distance_m = four.distance_m[k];
+            let p = place_at(distance_m, ray.direction);
+            let altitude_m = altitude_after(clouds.radius_m, view.altitude_m, ray.mu, distance_m);
+            let index = u32(four.kind[k]);
+            let part = fract(four.kind[k]);
+            let extinction = part / (1.0 - part);
+            for (var anew = around_m < 0.0 || abs(distance_m - around_m) > NEAR * distance_m; anew; anew = false) {
+                around = surroundings(p, altitude_m);
+                before = air_before(ray, distance_m);
+                around_m = distance_m;
+            }
+            var source = vec3f(0.0);
+            for (var band = index < FIRST_SHEET; band; band = false) {
+                source = source_at(index, p, altitude_m, extinction, around, lobes);
+            }
+            for (var sheet = index >= FIRST_SHEET; sheet; sheet = false) {
+                let sheet = clouds.sheets[index - FIRST_SHEET];
+                source = sheet_source(index - FIRST_SHEET, p, sheet_optical_depth(sheet, p, sheet.height_m), lobes);
+            }
+            light += four.share[k] * (before.left * source + before.single + before.multiple);
+        }
+    }
+    // What is left of an opaque cloud is nothing.
+    let left = 1.0 - dot(nodes.first.share + nodes.second.share, vec4f(1.0));
+    return vec4f(light - unlit_air(ray), select(left, 0.0, left < 1.001 * OPAQUE));
+}
