@@ -189,7 +189,7 @@ fn clouds_are_measured_by_what_changes_and_table_by_table() {
             // Without density there are no clouds to follow rays through.
             let seen = row["varied"]["density"] != json!(0.0);
             // The preset's own values have been seen before, under another sun.
-            let followed = ran(row, "cloud_view") || ran(row, "cloud_dome_light");
+            let followed = ran(row, "cloud_view_light") || ran(row, "cloud_dome_light");
             assert_eq!(followed, seen, "{row}");
         }
     }

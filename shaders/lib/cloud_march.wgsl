@@ -29,8 +29,8 @@ var<private> left: f32;
 
 // `share` is of what comes through to it.
 fn note(share: f32, distance_m: f32, index: u32, extinction_per_m: f32) {
-    let seen = left * share * (1.0 - faded(distance_m));
-    noted = with_node(noted, noted_count, distance_m, seen, index, extinction_per_m);
+    let seen = left * share;
+    noted = with_node(noted, noted_count, distance_m, (1.0 - faded(distance_m)) * seen, index, extinction_per_m);
     noted_count += 1u;
     left -= seen;
 }

@@ -32,6 +32,10 @@ impl CloudDomeLight {
             Bind::Buffer(blocks.nodes),
             Bind::Buffer(blocks.seen),
         ]);
-        recorder.dispatch(self.kernels.get(gpu, &[scape.one_layer()]), &binds, blocks.threads());
+        recorder.dispatch(
+            self.kernels.get(gpu, &[scape.one_layer()]),
+            &binds,
+            blocks.threads(),
+        );
     }
 }

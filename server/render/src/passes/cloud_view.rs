@@ -15,8 +15,8 @@ pub(crate) struct TileNodes {
     pub(crate) buffer: wgpu::Buffer,
 }
 
-/// What is kept for frames under another sun, bytes: a frame of 900×600.
-const KEPT_BYTES: u64 = 64 << 20;
+/// What is kept for frames under another sun, bytes: a frame of 1280×720.
+const KEPT_BYTES: u64 = 96 << 20;
 
 pub(crate) struct CloudView {
     kernels: Variants,
@@ -41,7 +41,13 @@ impl CloudView {
         let size_px = tile.size_px;
         let bytes = 4 * NODE_FLOATS * u64::from(size_px.x) * u64::from(size_px.y);
         let place = Part::new(&tile);
-        let made_from = Fingerprint::of(("cloud_view", scape.shape_fingerprint(), camera, projection, &place));
+        let made_from = Fingerprint::of((
+            "cloud_view",
+            scape.shape_fingerprint(),
+            camera,
+            projection,
+            &place,
+        ));
         self.memo.get_or_weighing(bytes, made_from, || {
             let gpu = recorder.gpu;
             let buffer = gpu.buffer("cloud_view", bytes, wgpu::BufferUsages::STORAGE);

@@ -32,7 +32,12 @@ impl CloudViewLight {
     ) -> Table {
         let gpu = recorder.gpu;
         let size_px = tile.size_px;
-        let view = gpu.written("cloud_view_light", [size_px.x, size_px.y, 1], Shape::Flat, Texel::Float);
+        let view = gpu.written(
+            "cloud_view_light",
+            [size_px.x, size_px.y, 1],
+            Shape::Flat,
+            Texel::Float,
+        );
         let parts = scape.upload(gpu);
         let place = Part::new(&tile);
         let (camera, place) = (camera.upload(gpu, "camera"), place.upload(gpu, "tile"));
@@ -45,7 +50,11 @@ impl CloudViewLight {
             Bind::Table(&view),
         ]);
         let constants = [scape.one_layer(), ("PROJECTION", f64::from(projection))];
-        recorder.dispatch(self.kernels.get(gpu, &constants), &binds, [size_px.x, size_px.y, 1]);
+        recorder.dispatch(
+            self.kernels.get(gpu, &constants),
+            &binds,
+            [size_px.x, size_px.y, 1],
+        );
         Table {
             view,
             made_from: Fingerprint::of("one tile"),

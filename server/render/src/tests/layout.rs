@@ -195,7 +195,7 @@ fn air() {
         &shader::STARS,
         &shader::PROBE,
         &shader::AERIAL,
-        &shader::CLOUD_VIEW,
+        &shader::CLOUD_VIEW_LIGHT,
     ];
     check(&shaders, "Air", &part, &f);
 }
@@ -218,7 +218,7 @@ fn observer() {
         &shader::SKY,
         &shader::PROBE,
         &shader::AERIAL,
-        &shader::CLOUD_VIEW,
+        &shader::CLOUD_VIEW_LIGHT,
     ];
     check(&shaders, "Observer", &part, &f);
 }
@@ -239,7 +239,12 @@ fn view() {
             disc: f32,
         }
     );
-    let shaders = [&shader::SKY, &shader::STARS, &shader::PROBE, &shader::CLOUD_VIEW];
+    let shaders = [
+        &shader::SKY,
+        &shader::STARS,
+        &shader::PROBE,
+        &shader::CLOUD_VIEW_LIGHT,
+    ];
     check(&shaders, "View", &part, &f);
 }
 
@@ -257,7 +262,7 @@ fn camera() {
             size_px: vec2,
         }
     );
-    check(&[&shader::SKY, &shader::CLOUD_VIEW], "Camera", &part, &f);
+    check(&[&shader::SKY, &shader::CLOUD_VIEW_LIGHT], "Camera", &part, &f);
 }
 
 #[test]
@@ -271,7 +276,7 @@ fn tile_order_and_meter() {
             stride_px: u32
         }
     );
-    check(&[&shader::SKY, &shader::CLOUD_VIEW], "Tile", &part, &f);
+    check(&[&shader::SKY, &shader::CLOUD_VIEW_LIGHT], "Tile", &part, &f);
     let mut f = Filled::default();
     let part = filled!(
         f,

@@ -49,7 +49,7 @@ fn cover(gpu: &Gpu, ready: &Ready, volume: bool) -> f64 {
     };
     let found = evaluate(
         gpu,
-        &shader::CLOUD_VIEW,
+        &shader::CLOUD_VIEW_LIGHT,
         statements,
         &columns(),
         &ready.binds(gpu, used),
@@ -64,7 +64,7 @@ const COVERAGES: [f64; 9] = [0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9];
 fn table(name: &str, layer: &Value, volume: bool) -> Vec<f64> {
     let engine = engine();
     let gpu = &engine.gpu;
-    let mut passes = passes(gpu);
+    let mut passes = passes();
     let mut sums = [0.0; COVERAGES.len()];
     let mut squares = [0.0; COVERAGES.len()];
     for seed in 1..=10 {

@@ -118,12 +118,12 @@ fn the_lattice_is_the_cloud() {
     let document = document("cloud_scene.json");
     let scene = Scene::from_value(&document["scene"]).unwrap();
     let engine = engine();
-    let ready = Ready::with(&engine.gpu, &mut passes(&engine.gpu), &scene, &weather(&document));
+    let ready = Ready::with(&engine.gpu, &mut passes(), &scene, &weather(&document));
     let cube = Cube::new(&document);
     let statement = "x.x = band_extinction(clouds.bands[0], a.xyz, a.w, true, 0.0).value;";
     let found = evaluate(
         &engine.gpu,
-        &shader::CLOUD_VIEW,
+        &shader::CLOUD_VIEW_LIGHT,
         statement,
         &cube.rows(scene.planet.radius_m),
         &ready.binds(&engine.gpu, &VOLUME),

@@ -27,7 +27,7 @@ fn with(gpu: &Gpu, clouds: &CloudsUniform, statements: &str, rows: &[[f32; 8]]) 
     let buffer = Part::new(clouds).upload(gpu, "clouds");
     evaluate(
         gpu,
-        &shader::CLOUD_VIEW,
+        &shader::CLOUD_VIEW_LIGHT,
         statements,
         rows,
         &[(0, buffer.as_entire_binding())],
@@ -48,7 +48,7 @@ fn the_lobes_are_their_twins() {
     }
     let engine = engine();
     let statement = "x = vec4f(henyey_greenstein(a.x, a.y), draine(a.x, a.y, a.z), 0.0, 0.0);";
-    let found = evaluate(&engine.gpu, &shader::CLOUD_VIEW, statement, &rows, &[]);
+    let found = evaluate(&engine.gpu, &shader::CLOUD_VIEW_LIGHT, statement, &rows, &[]);
     for (row, found) in rows.iter().zip(found) {
         let [cos, g, alpha] = [row[0], row[1], row[2]].map(f64::from);
         for (found, expected) in found
@@ -236,7 +236,7 @@ fn the_sum_of_two_looks_is_spread_evenly() {
     let rows: Vec<_> = (0..=27).map(|k| row(&[f64::from(k) * 0.05])).collect();
     let found = evaluate(
         &engine.gpu,
-        &shader::CLOUD_VIEW,
+        &shader::CLOUD_VIEW_LIGHT,
         "x = vec4f(share_below(a.xxx), SECOND_WEIGHT);",
         &rows,
         &[],

@@ -24,12 +24,12 @@ fn cloudy(clouds: Value) -> Scene {
 }
 
 /// Noise outlasts the test, since each runs in a process of its own.
-fn passes(gpu: &Gpu) -> CloudPasses {
+fn passes() -> CloudPasses {
     let cache = DiskCache {
         folder: std::env::temp_dir().join("welkin-test-noise"),
         most_bytes: 1 << 28,
     };
-    CloudPasses::new(gpu, Some(cache))
+    CloudPasses::new(Some(cache))
 }
 
 /// Noise and numbers of a scene's clouds on the device.

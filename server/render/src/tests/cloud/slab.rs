@@ -19,7 +19,7 @@ use welkin_scene::{Quality, Scene, assets::SceneAssets};
 pub(super) fn look(gpu: &Gpu, scene: &Scene, assets: &SceneAssets, size_px: UVec2) -> Vec<[f32; 4]> {
     let tables = tables(gpu, scene, Quality::Final);
     let sky = CloudSky::new(scene).unwrap();
-    let mut passes = passes(gpu);
+    let mut passes = passes();
     let textures = passes.textures(gpu, sky.clouds, assets).unwrap();
     let view = Part::new(&ViewUniform::new(&scene.sun, &tables.stand));
     let light = CloudLight {

@@ -131,7 +131,16 @@ fn clouds() {
             haze: f32,
         }
     );
-    check(&[&shader::CLOUD_SHADOW, &shader::CLOUD_VIEW], "Clouds", &part, &f);
+    check(
+        &[
+            &shader::CLOUD_SHADOW,
+            &shader::CLOUD_VIEW,
+            &shader::CLOUD_VIEW_LIGHT,
+        ],
+        "Clouds",
+        &part,
+        &f,
+    );
 }
 
 #[test]
@@ -152,7 +161,7 @@ fn shade_shadow_dome_and_frame() {
     );
     let shaders = [
         &shader::CLOUD_SHADOW,
-        &shader::CLOUD_VIEW,
+        &shader::CLOUD_VIEW_LIGHT,
         &shader::SKY,
         &shader::PROBE,
     ];
