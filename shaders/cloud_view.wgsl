@@ -8,6 +8,9 @@ import package::lib::view_ray::Observer;
 // As `sight_at` numbers it.
 override PROJECTION: u32 = 0u;
 
+// True where the whole frame has its places in one buffer, false where the tile has one of its own.
+override WHOLE_FRAME: bool = false;
+
 struct Tile {
     origin_px: vec2u,
     size_px: vec2u,
@@ -31,13 +34,17 @@ fn cloud_view(@builtin(global_invocation_id) id: vec3u) {
     if any(id.xy >= tile.size_px) {
         return;
     }
-    let pixel = vec2f(tile.origin_px + tile.stride_px * id.xy);
+    let in_frame = tile.origin_px + tile.stride_px * id.xy;
+    let pixel = vec2f(in_frame);
     let sight = sight_at(camera, PROJECTION, pixel + 0.5);
     var seen: Nodes;
     if sight.seen {
         seen = march_clouds(cloud_ray(observer, sight.direction, jitter_of(pixel), 0.0));
     }
-    let at = 6u * (id.y * tile.size_px.x + id.x);
+    var at = 6u * (id.y * tile.size_px.x + id.x);
+    if WHOLE_FRAME {
+        at = 6u * (in_frame.y * u32(camera.size_px.x) + in_frame.x);
+    }
     nodes[at] = seen.first.distance_m;
     nodes[at + 1u] = seen.first.share;
     nodes[at + 2u] = seen.first.kind;

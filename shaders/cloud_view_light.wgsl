@@ -8,6 +8,9 @@ import package::lib::view_ray::Observer;
 // As `sight_at` numbers it.
 override PROJECTION: u32 = 0u;
 
+// True where the whole frame has its places in one buffer, false where the tile has one of its own.
+override WHOLE_FRAME: bool = false;
+
 struct Tile {
     origin_px: vec2u,
     size_px: vec2u,
@@ -28,11 +31,15 @@ fn cloud_view_light(@builtin(global_invocation_id) id: vec3u) {
     if any(id.xy >= tile.size_px) {
         return;
     }
-    let sight = sight_at(camera, PROJECTION, vec2f(tile.origin_px + tile.stride_px * id.xy) + 0.5);
+    let in_frame = tile.origin_px + tile.stride_px * id.xy;
+    let sight = sight_at(camera, PROJECTION, vec2f(in_frame) + 0.5);
     var value = vec4f(0.0, 0.0, 0.0, 1.0);
     if sight.seen {
         let ray = cloud_ray(observer, sight.direction, 0.5, 0.0);
-        let k = 6u * (id.y * tile.size_px.x + id.x);
+        var k = 6u * (id.y * tile.size_px.x + id.x);
+        if WHOLE_FRAME {
+            k = 6u * (in_frame.y * u32(camera.size_px.x) + in_frame.x);
+        }
         let first = FourNodes(nodes[k], nodes[k + 1u], nodes[k + 2u]);
         value = clouds_seen(ray, Nodes(first, FourNodes(nodes[k + 3u], nodes[k + 4u], nodes[k + 5u])));
     }

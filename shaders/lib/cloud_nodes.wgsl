@@ -17,7 +17,7 @@ struct Nodes {
 const NODES = 8u;
 
 // One cloud's first and last light differ: a place stands for no more than this share.
-const NODE_SHARE = 0.25;
+override NODE_SHARE: f32 = 0.25;
 
 // `at` is 4 or more where the place is not among these. One that is not fresh joins what is there.
 fn with_one(nodes: FourNodes, at: u32, fresh: bool, distance_m: f32, share: f32, kind: f32) -> FourNodes {

@@ -232,10 +232,7 @@ fn noise(size: Size, quality: Quality, settings: &Settings) -> Result<Account, F
 fn warm_up(viewer: &Viewer<'_>, scene: &Scene) -> Result<(), Failure> {
     let mut scene = scene.clone();
     turn_sun(&mut scene, 41.0);
-    let Size { width_px, height_px } = viewer.size;
-    let size = Size::new(width_px.div_ceil(2), height_px.div_ceil(2));
-    Viewer { size, ..*viewer }.see("unmeasured", &scene)?;
-    Ok(())
+    viewer.see("unmeasured", &scene).map(drop)
 }
 
 fn turn_sun(scene: &mut Scene, elevation_deg: f64) {

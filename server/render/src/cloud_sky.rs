@@ -288,6 +288,11 @@ impl<'a> CloudSky<'a> {
         }
     }
 
+    /// Of the coarse noise.
+    pub(crate) fn noise_scale_m(&self) -> f32 {
+        narrow(self.clouds.shape.base_scale_m)
+    }
+
     /// The shaders' constant that is 1 where there is a single layer of volume; sheets are counted apart.
     pub(crate) const fn one_layer(&self) -> (&'static str, f64) {
         ("ONE_LAYER", if self.volumes.len() == 1 { 1.0 } else { 0.0 })

@@ -195,11 +195,12 @@ impl<'a> CloudLight<'a> {
     }
 }
 
-/// The longest step in height of the light's way through a band, metres, and the most steps from one height to the next.
+/// The longest step in height of the light's way through a band, as a share of the scale of the clouds' noise, and the most
+/// steps from one height to the next.
 const fn shadow_steps(quality: Quality) -> (f32, f32) {
     match quality {
-        Quality::Preview => (300.0, 1.0),
-        Quality::Final => (120.0, 6.0),
+        Quality::Preview => (0.0375, 6.0),
+        Quality::Final => (0.015, 6.0),
     }
 }
 
@@ -298,7 +299,8 @@ impl CloudPasses {
         let aerial = self
             .aerial
             .run(recorder, &tables.air, &light.stand, reads, tables.plan, quality);
-        let (step_m, most_steps) = shadow_steps(quality);
+        let (share, most_steps) = shadow_steps(quality);
+        let step_m = share * sky.noise_scale_m();
         let towards = ShadowUniform {
             light: light.stand.sun.as_vec3(),
             step_m,

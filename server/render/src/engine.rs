@@ -199,6 +199,7 @@ impl Engine {
                     let inputs = SkyInputs {
                         clouds: clouds.as_ref().map(|scape| CloudInputs {
                             scape,
+                            frame_px: small,
                             dome: dome.as_ref(),
                         }),
                         ..sky_inputs(&tables, &lights, true, parts, sky_view.as_deref())

@@ -57,7 +57,11 @@ impl Prepared {
         let parts = [self.lights.view(false), &self.camera_part, &self.observer];
         let dome = self.dome.as_ref();
         SkyInputs {
-            clouds: self.clouds.as_ref().map(|scape| CloudInputs { scape, dome }),
+            clouds: self.clouds.as_ref().map(|scape| CloudInputs {
+                scape,
+                frame_px: self.camera.size_px.as_uvec2(),
+                dome,
+            }),
             ..sky_inputs(&self.tables, &self.lights, false, parts, self.sky_view.as_deref())
         }
     }

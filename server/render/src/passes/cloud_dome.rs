@@ -14,6 +14,9 @@ pub(crate) struct CloudDome {
 /// Floats of a corner: `Nodes` of `lib/cloud_nodes.wgsl`.
 pub(crate) const NODE_FLOATS: u64 = 24;
 
+/// Of all that is seen, what a place stands for in a preview: `NODE_SHARE` of `lib/cloud_nodes.wgsl`.
+const NODE_SHARE: (&str, f64) = ("NODE_SHARE", 0.45);
+
 impl CloudDome {
     pub(crate) const fn new() -> Self {
         Self {
@@ -31,7 +34,7 @@ impl CloudDome {
             Bind::Buffer(&blocks.list),
             Bind::Buffer(blocks.nodes),
         ]);
-        let kernel = self.kernels.get(gpu, &[scape.one_layer()]);
+        let kernel = self.kernels.get(gpu, &[scape.one_layer(), NODE_SHARE]);
         recorder.dispatch(kernel, &binds, blocks.threads());
     }
 }

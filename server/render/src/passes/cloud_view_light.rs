@@ -1,6 +1,9 @@
 //! The light of the clouds that every pixel of a tile sees.
 
-use super::{Table, cloud_view::TileNodes};
+use super::{
+    Table,
+    cloud_view::{ViewNodes, whole_frame},
+};
 use crate::{
     cloudscape::Cloudscape,
     gpu::Shape,
@@ -9,6 +12,7 @@ use crate::{
     shader::{self, Texel},
     uniforms::{Part, TileUniform},
 };
+use glam::UVec2;
 
 pub(crate) struct CloudViewLight {
     kernels: Variants,
@@ -27,8 +31,8 @@ impl CloudViewLight {
         recorder: &mut Recorder<'_>,
         scape: &Cloudscape,
         (camera, projection): (&Part, u32),
-        tile: TileUniform,
-        nodes: &TileNodes,
+        (tile, frame_px): (TileUniform, UVec2),
+        nodes: &ViewNodes,
     ) -> Table {
         let gpu = recorder.gpu;
         let size_px = tile.size_px;
@@ -49,7 +53,11 @@ impl CloudViewLight {
             Bind::Buffer(&nodes.buffer),
             Bind::Table(&view),
         ]);
-        let constants = [scape.one_layer(), ("PROJECTION", f64::from(projection))];
+        let constants = [
+            scape.one_layer(),
+            whole_frame(frame_px),
+            ("PROJECTION", f64::from(projection)),
+        ];
         recorder.dispatch(
             self.kernels.get(gpu, &constants),
             &binds,

@@ -67,6 +67,8 @@ pub(crate) struct SkyInputs<'a> {
 #[derive(Clone, Copy)]
 pub(crate) struct CloudInputs<'a> {
     pub(crate) scape: &'a Cloudscape,
+    /// Of the whole frame.
+    pub(crate) frame_px: UVec2,
     /// None where a ray is followed before each pixel.
     pub(crate) dome: Option<&'a DomeView>,
 }
@@ -139,6 +141,7 @@ impl Sky {
         let dome = inputs.clouds.and_then(|c| c.dome);
         let clouds = inputs.clouds.filter(|_| dome.is_none()).map(|c| {
             let camera = (inputs.camera, projection);
+            let tile = (tile, c.frame_px);
             let nodes = self.clouds.run(recorder, c.scape, camera, tile);
             self.clouds_light.run(recorder, c.scape, camera, tile, &nodes)
         });

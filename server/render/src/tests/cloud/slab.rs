@@ -35,6 +35,7 @@ pub(super) fn look(gpu: &Gpu, scene: &Scene, assets: &SceneAssets, size_px: UVec
         stride_px: 1,
     };
     let camera = (&camera, tables.plan.projection);
+    let tile = (tile, size_px);
     let nodes = CloudView::new().run(&mut recorder, &scape, camera, tile);
     let seen = CloudViewLight::new().run(&mut recorder, &scape, camera, tile, &nodes);
     recorder.finish(&[], |_| ()).unwrap();
