@@ -2,7 +2,7 @@
 
 use super::{Preset, clouds, everywhere, looking, sheet, sun, volume, wide};
 use crate::{
-    clouds::{Clouds, Genus, Layer, SheetLayer, VolumeLayer},
+    clouds::{Clouds, Genus, Layer, ProceduralMap, Shape, SheetLayer, VolumeLayer, WeatherMap},
     document::Scene,
 };
 
@@ -19,7 +19,10 @@ fn low() -> Vec<Preset> {
             scene: Scene {
                 camera: looking(20.0, 14.0),
                 sun: sun(290.0, 40.0),
-                clouds: Some(clouds(0.4, vec![Layer::Volume(volume(1_200.0, 2_700.0, 1.0))])),
+                clouds: Some(Clouds {
+                    weather_map: spread(24_000.0),
+                    ..clouds(0.35, vec![Layer::Volume(volume(1_200.0, 2_700.0, 1.0))])
+                }),
                 ..Scene::default()
             },
         },
@@ -44,7 +47,7 @@ fn low() -> Vec<Preset> {
             scene: Scene {
                 camera: looking(330.0, 15.0),
                 sun: sun(240.0, 35.0),
-                clouds: Some(clouds(0.8, vec![Layer::Volume(volume(1_000.0, 1_700.0, 0.5))])),
+                clouds: Some(stratocumulus()),
                 ..Scene::default()
             },
         },
@@ -55,16 +58,7 @@ fn low() -> Vec<Preset> {
             scene: Scene {
                 camera: wide(60.0, 22.0),
                 sun: sun(160.0, 25.0),
-                clouds: Some(Clouds {
-                    precipitation: 0.6,
-                    ..clouds(
-                        0.25,
-                        vec![Layer::Volume(VolumeLayer {
-                            anvil: 1.0,
-                            ..volume(900.0, 11_000.0, 1.0)
-                        })],
-                    )
-                }),
+                clouds: Some(cumulonimbus()),
                 ..Scene::default()
             },
         },
@@ -86,37 +80,78 @@ fn low() -> Vec<Preset> {
     ]
 }
 
+/// Lumps of two or three kilometres.
+fn stratocumulus() -> Clouds {
+    let usual = clouds(0.7, vec![Layer::Volume(volume(1_000.0, 1_700.0, 0.5))]);
+    Clouds {
+        weather_map: spread(20_000.0),
+        shape: Shape {
+            base_scale_m: 4_000.0,
+            ..usual.shape
+        },
+        ..usual
+    }
+}
+
+/// As wide as they are high, with towers of a kilometre and more.
+fn cumulonimbus() -> Clouds {
+    let towers = VolumeLayer {
+        anvil: 1.0,
+        ..volume(900.0, 11_000.0, 1.0)
+    };
+    let usual = clouds(0.25, vec![Layer::Volume(towers)]);
+    Clouds {
+        precipitation: 0.6,
+        weather_map: spread(90_000.0),
+        shape: Shape {
+            base_scale_m: 14_000.0,
+            detail_scale_m: 1_800.0,
+            high_freq_modifier: 0.25,
+            ..usual.shape
+        },
+        ..usual
+    }
+}
+
+/// Weather by noise. The smaller its square, the smaller the clouds.
+fn spread(extent_m: f64) -> WeatherMap {
+    WeatherMap::Procedural(ProceduralMap {
+        extent_m,
+        ..ProceduralMap::default()
+    })
+}
+
 fn high() -> Vec<Preset> {
     vec![
         Preset {
             name: "altocumulus",
             title: "Altocumulus",
             description: "Cloudlets in rows at 4000 m, shaded on their undersides.",
-            scene: high_scene(35.0, 100.0, 35.0, 4_000.0, Genus::Altocumulus, 0.6),
+            scene: high_scene(24.0, 100.0, 35.0, (4_000.0, Some(2.0)), Genus::Altocumulus, 0.55),
         },
         Preset {
             name: "altostratus",
             title: "Altostratus",
             description: "A grey veil at 4500 m over all the sky; the sun behind it is a bright patch.",
-            scene: high_scene(25.0, 15.0, 35.0, 4_500.0, Genus::Altostratus, 1.0),
+            scene: high_scene(25.0, 15.0, 35.0, (4_500.0, Some(12.0)), Genus::Altostratus, 1.0),
         },
         Preset {
             name: "cirrus",
             title: "Cirrus",
             description: "White fibres and hooks of ice at 9 km on deep blue.",
-            scene: high_scene(35.0, 80.0, 40.0, 9_000.0, Genus::Cirrus, 0.5),
+            scene: high_scene(35.0, 80.0, 40.0, (9_000.0, None), Genus::Cirrus, 0.5),
         },
         Preset {
             name: "cirrocumulus",
             title: "Cirrocumulus",
             description: "Ripples and grains of ice at 8 km, white and without shades.",
-            scene: high_scene(40.0, 95.0, 30.0, 8_000.0, Genus::Cirrocumulus, 0.6),
+            scene: high_scene(30.0, 95.0, 30.0, (8_000.0, None), Genus::Cirrocumulus, 0.6),
         },
         Preset {
             name: "cirrostratus",
             title: "Cirrostratus",
             description: "A smooth milky veil at 8500 m, through which the sun still casts shadows.",
-            scene: high_scene(25.0, 65.0, 30.0, 8_500.0, Genus::Cirrostratus, 1.0),
+            scene: high_scene(25.0, 65.0, 30.0, (8_500.0, Some(0.4)), Genus::Cirrostratus, 1.0),
         },
     ]
 }
@@ -126,13 +161,14 @@ fn high_scene(
     up_deg: f64,
     beside_deg: f64,
     sun_deg: f64,
-    height_m: f64,
+    (height_m, optical_depth): (f64, Option<f64>),
     genus: Genus,
     coverage: f64,
 ) -> Scene {
     let layer = SheetLayer {
         height_m,
         genus,
+        optical_depth,
         ..SheetLayer::default()
     };
     Scene {
