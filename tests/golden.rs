@@ -20,6 +20,7 @@ use std::{
 /// Name, scene, width and height.
 const SCENES: &[(&str, &str, u32, u32)] = &[
     ("default", "{}", 160, 90),
+    ("clear", r#"{"clouds": null}"#, 160, 90),
     ("clear-noon", "preset:clear-noon", 160, 90),
     ("golden-hour", "preset:golden-hour", 160, 90),
     ("twilight", "preset:twilight", 160, 90),
@@ -29,21 +30,22 @@ const SCENES: &[(&str, &str, u32, u32)] = &[
     ("complutense", "preset:complutense", 160, 90),
     (
         "fisheye",
-        r#"{"sun": {"position": {"azimuth_deg": 240, "elevation_deg": 12}},
+        r#"{"sun": {"position": {"azimuth_deg": 240, "elevation_deg": 12}}, "clouds": null,
             "camera": {"direction": {"azimuth_deg": 0, "elevation_deg": 90}, "projection": {"kind": "fisheye"}}}"#,
         120,
         120,
     ),
     (
         "equirectangular",
-        r#"{"sun": {"position": {"azimuth_deg": 150, "elevation_deg": 20}},
+        r#"{"sun": {"position": {"azimuth_deg": 150, "elevation_deg": 20}}, "clouds": null,
             "camera": {"projection": {"kind": "equirectangular"}}}"#,
         160,
         80,
     ),
     (
         "cubemap",
-        r#"{"sun": {"position": {"azimuth_deg": 150, "elevation_deg": 20}}, "camera": {"projection": {"kind": "cubemap"}}}"#,
+        r#"{"sun": {"position": {"azimuth_deg": 150, "elevation_deg": 20}}, "clouds": null,
+            "camera": {"projection": {"kind": "cubemap"}}}"#,
         192,
         32,
     ),

@@ -42,7 +42,7 @@ impl Case for Sky {
     }
 
     fn measure(&self, setup: &Setup, settings: &Settings) -> Result<Account, Failure> {
-        let mut scene = Scene::default();
+        let mut scene = Scene::clear();
         let quality = setup.parameter("quality")?;
         let watch = Stopwatch::start();
         let renderer = crate::open_renderer(settings)?;
@@ -101,7 +101,7 @@ fn turn_sun(scene: &mut Scene, elevation_deg: f64) {
 
 /// Over the whole sphere but the pixels that the horizon crosses, without the sun's disc.
 fn error(viewer: &Viewer<'_>) -> Result<f64, Failure> {
-    let mut scene = Scene::default();
+    let mut scene = Scene::clear();
     scene.sun.disc = false;
     scene.camera.projection = Projection::Equirectangular {};
     viewer.error(&scene, &scene, ERROR_SIZE, &environment(ERROR_SIZE))

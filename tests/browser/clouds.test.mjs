@@ -14,12 +14,21 @@ const unfold = (page, pointer) => page.locator(`${field(pointer)} > .group-head 
 const kinds = ({ kind }) => kind;
 const CLOUDS = `#${CHEAP}`;
 
+test('a page without an address opens on fair weather', () =>
+  open(
+    async (page) => {
+      assert.deepEqual(sentScene(page).clouds.layers.map(kinds), ['volume', 'sheet']);
+      assert.equal(new URL(page.url()).hash, '');
+    },
+    { hash: '', clear: false, viewport: STRIP },
+  ));
+
 test('clouds are switched on, thickened, and off again', () =>
   open(
     async (page) => {
       const clear = await colours(page);
       await changing(page, () => page.locator(`${field('/clouds')} > .group-head .switch`).click());
-      assert.equal(await numberAt(page, '/clouds/coverage'), 0.5);
+      assert.equal(await numberAt(page, '/clouds/coverage'), 0.3);
       const some = await colours(page);
       assert.ok(difference(clear, some) > SEEN, 'there are clouds');
       await changing(page, () => page.locator(`${field('/clouds/coverage')} input[type="range"]`).first().fill('1000'));
@@ -49,7 +58,7 @@ test('layers are added, put in another order, changed and removed', () =>
       await telling(page, () => page.locator(`.field${field('/clouds/layers/2/genus')} select`).selectOption('altocumulus'));
       assert.deepEqual([layers()[2].kind, layers()[2].genus], ['sheet', 'altocumulus']);
       await telling(page, () => page.locator('[data-optional="/clouds/layers/2/coverage"] .switch').click());
-      assert.equal(layers()[2].coverage, 0.5, 'that of the clouds');
+      assert.equal(layers()[2].coverage, 0.3, 'that of the clouds');
       await telling(page, () => page.getByRole('button', { name: 'Remove layer 1' }).click());
       assert.deepEqual(layers().map(kinds), ['volume', 'sheet']);
       for (let count = 2; count < 8; count++) await telling(page, () => page.getByRole('button', { name: 'Add a layer' }).click());

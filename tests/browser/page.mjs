@@ -58,9 +58,9 @@ export function useBrowser(more = []) {
   /**
    * Opens the page, runs a test on it, and demands that the page logged no error and asked no other host.
    * @param {(page: Page, server: Awaited<ReturnType<typeof startServer>>) => Promise<void>} act
-   * @param {{viewport?: {width: number, height: number}, hash?: string, touch?: boolean, logs?: RegExp}} [options] `logs`: what Chromium itself will log
+   * @param {{viewport?: {width: number, height: number}, hash?: string, clear?: boolean, touch?: boolean, logs?: RegExp}} [options] `clear`: no clouds, unless `hash` speaks of them; `logs`: what Chromium itself will log
    */
-  return async (act, { viewport = DESK, hash = '', touch = false, logs } = {}) => {
+  return async (act, { viewport = DESK, hash = '', clear = true, touch = false, logs } = {}) => {
     const context = await browser.newContext({ viewport, hasTouch: touch, permissions: ['clipboard-read', 'clipboard-write'] });
     const page = await context.newPage();
     page.setDefaultTimeout(PATIENCE_MS);
@@ -77,7 +77,8 @@ export function useBrowser(more = []) {
       if (protocol.startsWith('http') && `${origin}/` !== server.url) faults.push(`a request to ${request.url()}`);
     });
     try {
-      await page.goto(server.url + hash);
+      const isClear = clear && !hash.includes('clouds');
+      await page.goto(server.url + hash + (isClear ? `${hash ? '&' : '#'}clouds=null` : ''));
       await settled(page);
       await act(page, server);
       assert.deepEqual(faults, []);

@@ -28,7 +28,7 @@ test('haze is switched on, thickened on a logarithm, and told by extinction inst
     await changing(page, () => page.locator(`${optional('/haze/extinction_per_m')} .switch`).click());
     assert.equal(await numberAt(page, '/haze/extinction_per_m'), 0.00401);
     assert.equal(await page.locator(`${optional('/haze/visibility_m')} .switch`).isChecked(), false, 'one of the two says it');
-    await page.waitForURL('**#haze.extinction_per_m=0.00401');
+    await page.waitForURL('**#clouds=null&haze.extinction_per_m=0.00401');
     await changing(page, () => page.locator(`${field('/haze')} > .group-head .switch`).click());
     assert.ok(difference(before, await colours(page)) < SEEN);
     assert.equal(await page.locator('.toast.bad').count(), 0);
@@ -47,7 +47,7 @@ test('one number becomes three and one again', () =>
     assert.equal(await red.inputValue(), '3.996e-6');
     await changing(page, () => red.fill('2e-4'));
     assert.ok(difference(before, await colours(page)) > SEEN, 'the haze is red');
-    await page.waitForURL('**#atmosphere.mie.scattering_per_m=[0.0002,0.000003996,0.000003996]');
+    await page.waitForURL('**#atmosphere.mie.scattering_per_m=[0.0002,0.000003996,0.000003996]&clouds=null');
     await changing(page, () => toggle.click());
     // The mean of the three, four digits.
     assert.equal(await numberAt(page, '/atmosphere/mie/scattering_per_m'), 6.933e-5);

@@ -31,6 +31,8 @@ pub(super) fn named(name: &str) -> Scene {
     let ahead_deg = scene.camera.direction.to_angles().azimuth_deg;
     scene.camera.direction = Direction::angles(ahead_deg, UP_DEG);
     if let Some((aside_deg, elevation_deg)) = sun {
+        // Half covered: as many rays meet clouds as miss them.
+        scene.clouds.iter_mut().for_each(|clouds| clouds.coverage = 0.5);
         let azimuth_deg = (ahead_deg + aside_deg).rem_euclid(360.0);
         scene.sun.position = SunPosition::Direction(Direction::angles(azimuth_deg, elevation_deg));
     }

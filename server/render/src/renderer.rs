@@ -81,8 +81,8 @@ impl Drop for RendererThread {
 }
 
 impl Renderer {
-    /// Opens the device and starts the thread. The first frame of the default scene is rendered small, so that the
-    /// driver has compiled every shader before anybody waits.
+    /// Opens the device and starts the thread. The first frame of a clear sky is rendered small, so that the
+    /// driver has compiled the shaders of the air before anybody waits.
     ///
     /// # Errors
     /// Where no adapter fits the settings, or the device cannot be opened.
@@ -126,7 +126,7 @@ impl Renderer {
     fn warm_up(&self) {
         for output in [Output::Display, Output::Linear] {
             let order = FrameOrder {
-                scene: Arc::new(Scene::default()),
+                scene: Arc::new(Scene::clear()),
                 assets: Arc::default(),
                 width_px: 16,
                 height_px: 16,

@@ -27,7 +27,7 @@ pub struct Scene {
     pub planet: Planet,
     /// The air; `null` is vacuum.
     pub atmosphere: Option<Atmosphere>,
-    /// The clouds; `null` for none.
+    /// The clouds; `null` for a clear sky.
     pub clouds: Option<Clouds>,
     /// Haze or fog on the ground, in addition to the air's aerosols; `null` is none.
     pub haze: Option<Haze>,
@@ -45,9 +45,20 @@ impl Default for Scene {
             stars: Some(Stars::default()),
             planet: Planet::default(),
             atmosphere: Some(Atmosphere::default()),
-            clouds: None,
+            clouds: Some(Clouds::default()),
             haze: None,
             display: Display::default(),
+        }
+    }
+}
+
+impl Scene {
+    /// The default scene under a clear sky.
+    #[must_use]
+    pub fn clear() -> Self {
+        Self {
+            clouds: None,
+            ..Self::default()
         }
     }
 }

@@ -40,7 +40,7 @@ fn passes(frame: &Frame) -> Vec<&'static str> {
 #[test]
 fn tiles_leave_no_trace() {
     let mut engine = engine();
-    let mut scene = Scene::default();
+    let mut scene = Scene::clear();
     // The sun in the picture, the horizon across it: everything that a tile's place could disturb.
     scene.camera.direction = Direction::angles(180.0, 20.0);
     scene.camera.projection = Projection::Perspective {
@@ -75,10 +75,7 @@ fn tiles_leave_no_trace() {
 #[test]
 fn tiles_leave_no_trace_in_clouds() {
     let mut engine = engine();
-    let mut scene = Scene {
-        clouds: Some(welkin_scene::Clouds::default()),
-        ..Scene::default()
-    };
+    let mut scene = Scene::default();
     scene.camera.direction = Direction::angles(180.0, 15.0);
     let mut traces = Vec::new();
     for quality in [Quality::Preview, Quality::Final] {
@@ -101,14 +98,14 @@ fn tiles_leave_no_trace_in_clouds() {
 fn long_and_odd_frames_are_whole() {
     let mut engine = engine();
     for (width_px, height_px) in [(16_384, 1), (1, 16_384), (3000, 2001)] {
-        let order = order(Scene::default(), width_px, height_px, Output::Display);
+        let order = order(Scene::clear(), width_px, height_px, Output::Display);
         let (frame, _) = in_tiles(&mut engine, &order, 1 << 18);
         assert_eq!((frame.width_px, frame.height_px), (width_px, height_px));
         let Pixels::Display(values) = &frame.pixels else {
             panic!("not a picture")
         };
         assert_eq!(values.len(), 3 * width_px as usize * height_px as usize);
-        // A tile that nobody wrote would be black; the default scene's darkest part is lit ground.
+        // A tile that nobody wrote would be black; its darkest part is lit ground.
         assert!(
             values.chunks_exact(3).all(|p| p.iter().any(|v| *v > 20)),
             "{width_px} × {height_px}"
@@ -160,7 +157,7 @@ fn the_budget_follows_the_device() {
 #[test]
 fn both_ways_to_the_picture_are_one() {
     let mut engine = engine();
-    let mut order = order(Scene::default(), 256, 144, Output::Display);
+    let mut order = order(Scene::clear(), 256, 144, Output::Display);
     order.quality = Quality::Final;
     let (at_once, _) = in_tiles(&mut engine, &order, 1 << 18);
     let (by_radiance, _) = in_tiles(&mut engine, &order, 1 << 18);
@@ -178,7 +175,7 @@ fn a_change_runs_only_the_passes_that_see_it() {
         passes(&in_tiles(&mut engine, &order, 1 << 18).0)
     };
     // A sky that no other test renders.
-    let mut scene = Scene::default();
+    let mut scene = Scene::clear();
     scene.planet.radius_m = 6_361_234.0;
     let all = ["transmittance", "multi_scattering", "sky_view", "sky", "exposure"];
     assert_eq!(run(&scene), all);
@@ -222,7 +219,7 @@ fn a_change_runs_only_the_passes_that_see_it() {
 #[test]
 fn a_preview_runs_no_tone_pass() {
     let mut engine = engine();
-    let mut scene = Scene::default();
+    let mut scene = Scene::clear();
     scene.planet.radius_m = 6_361_235.0;
     let first = in_tiles(
         &mut engine,

@@ -6,7 +6,7 @@ use welkin_scene::renderer::Pixels;
 
 fn order(height_px: u32, output: Output) -> FrameOrder {
     FrameOrder {
-        scene: Arc::new(Scene::default()),
+        scene: Arc::new(Scene::clear()),
         assets: Arc::default(),
         width_px: 32,
         height_px,

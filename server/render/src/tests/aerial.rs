@@ -56,7 +56,7 @@ fn volumes(gpu: &Gpu, tables: &Tables, quality: Quality) -> Arc<AerialVolumes> {
 }
 
 fn scene(altitude_m: f64, sun_deg: f64) -> Scene {
-    let mut scene = Scene::default();
+    let mut scene = Scene::clear();
     scene.camera.position_m = [0.0, 0.0, altitude_m];
     scene.sun.position = SunPosition::Direction(Direction::angles(0.0, sun_deg));
     scene

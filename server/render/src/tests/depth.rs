@@ -82,7 +82,7 @@ fn the_vertical_optical_depth_is_the_closed_form() {
     for air in airs {
         let mut scene = Scene {
             atmosphere: Some(air.clone()),
-            ..Scene::default()
+            ..Scene::clear()
         };
         scene.camera.position_m = [0.0; 3];
         let zenith = Sight {

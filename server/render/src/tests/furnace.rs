@@ -36,7 +36,7 @@ fn white_planet(air: Atmosphere) -> Scene {
             ..Planet::default()
         },
         atmosphere: Some(air),
-        ..Scene::default()
+        ..Scene::clear()
     }
 }
 

@@ -15,7 +15,7 @@ fn radiance(table_format: wgpu::TextureFormat) -> Vec<f32> {
     let mut gpu = Gpu::open(&AdapterChoice::default()).unwrap();
     gpu.table_format = table_format;
     let mut engine = Engine::on(gpu, None, 0).unwrap();
-    let mut scene = Scene::default();
+    let mut scene = Scene::clear();
     scene.sun.disc = false;
     let order = FrameOrder {
         scene: Arc::new(scene),

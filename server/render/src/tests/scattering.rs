@@ -43,7 +43,7 @@ fn worst(air: &Atmosphere, altitudes_m: &[f64], suns_deg: &[f64]) -> (f64, Strin
                     ..air.clone()
                 }),
                 stars: None,
-                ..Scene::default()
+                ..Scene::clear()
             };
             scene.camera.position_m = [0.0, 0.0, *altitude_m];
             scene.planet.ground_albedo = [0.3, 0.2, 0.1];

@@ -53,7 +53,7 @@ fn multi_scattering_texels_come_back() {
     for haze in [None, Some(Haze::default())] {
         let scene = Scene {
             haze: haze.clone(),
-            ..Scene::default()
+            ..Scene::clear()
         };
         let uniform = Part::new(&AirUniform::new(&scene)).upload(&engine.gpu, "air");
         let binds = [(0, uniform.as_entire_binding())];
@@ -159,11 +159,11 @@ fn depths(gpu: &Gpu, scene: &Scene, rays: &[(f64, f64)]) -> Vec<[f32; 8]> {
 fn the_transmittance_table_is_the_quadrature_between_its_texels_too() {
     let engine = engine();
     let mut scenes = vec![
-        Scene::default(),
+        Scene::clear(),
         welkin_scene::preset("complutense").unwrap().scene.clone(),
     ];
     for density_factor in [0.3, 5.0] {
-        let mut scene = Scene::default();
+        let mut scene = Scene::clear();
         scene.atmosphere.as_mut().unwrap().density_factor = density_factor;
         scenes.push(scene);
     }

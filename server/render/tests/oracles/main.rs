@@ -57,6 +57,7 @@ fn lit(document: &Value, altitude_m: f64, sun_zenith_deg: f64, albedo: f64) -> S
     document["atmosphere"]["airglow"] = Value::Null;
     document["moon"] = Value::Null;
     document["stars"] = Value::Null;
+    document["clouds"] = Value::Null;
     Scene::from_value(&document).unwrap()
 }
 

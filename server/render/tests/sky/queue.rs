@@ -24,13 +24,13 @@ fn with_places(queue_places: usize) -> Renderer {
 }
 
 fn small() -> FrameOrder {
-    order(Scene::default(), 16, 9, Quality::Preview, Output::Display)
+    order(Scene::clear(), 16, 9, Quality::Preview, Output::Display)
 }
 
 /// Work for a while: sixteen million pixels a thousand rows.
 fn long(height_px: u32) -> FrameOrder {
     let order = order(
-        Scene::default(),
+        Scene::clear(),
         16_384,
         height_px,
         Quality::Preview,
@@ -201,7 +201,7 @@ fn an_equal_order_costs_no_pass_and_gives_the_same_bytes() {
 #[test]
 fn preview_and_final_quality_agree() {
     let of = |quality: Quality| {
-        let Pixels::Linear(values) = &frame(order(Scene::default(), 60, 40, quality, Output::Linear)).pixels
+        let Pixels::Linear(values) = &frame(order(Scene::clear(), 60, 40, quality, Output::Linear)).pixels
         else {
             panic!("not radiance")
         };

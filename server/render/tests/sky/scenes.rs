@@ -17,9 +17,9 @@ pub(crate) fn renderer() -> &'static Renderer {
     &RENDERER
 }
 
-/// The default scene with changes, as JSON has them, and lit by the sun alone unless these say otherwise.
+/// The default scene with changes, as JSON has them, under a clear sky and lit by the sun alone unless these say otherwise.
 pub(crate) fn scene(changes: Value) -> Scene {
-    let mut scene: Scene = serde_json::from_value(changes.clone()).unwrap();
+    let mut scene = whole(changes.clone());
     if changes.get("stars").is_none() {
         scene.stars = None;
     }
@@ -31,9 +31,14 @@ pub(crate) fn scene(changes: Value) -> Scene {
     scene
 }
 
-/// The default scene with changes, the night's lights among them.
+/// The default scene with changes, the night's lights among them, under a clear sky unless these say otherwise.
 pub(crate) fn whole(changes: Value) -> Scene {
-    serde_json::from_value(changes).unwrap()
+    let is_cloudy = changes.get("clouds").is_some();
+    let mut scene: Scene = serde_json::from_value(changes).unwrap();
+    if !is_cloudy {
+        scene.clouds = None;
+    }
+    scene
 }
 
 /// A planet without air.

@@ -96,7 +96,8 @@ pub struct Clouds {
 impl Default for Clouds {
     fn default() -> Self {
         Self {
-            coverage: 0.5,
+            // Few to scattered, two to three eighths, as fair weather is reported.
+            coverage: 0.3,
             density: 1.0,
             precipitation: 0.0,
             seed: 1,

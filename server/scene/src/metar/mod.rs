@@ -95,7 +95,7 @@ impl MetarRequest {
         let both = report.temperature_c.zip(report.dew_point_c);
         report.relative_humidity = both.map(|(air, dew)| air::relative_humidity(air, dew));
 
-        let (mut scene, mut notes) = (Scene::default(), Vec::new());
+        let (mut scene, mut notes) = (Scene::clear(), Vec::new());
         match report.place {
             Some(place) => scene.sun.position = SunPosition::TimeAndPlace(sun(&report, place)),
             None => notes.push(format!(

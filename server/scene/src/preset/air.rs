@@ -18,7 +18,7 @@ pub(super) fn presets() -> Vec<Preset> {
             scene: Scene {
                 camera: looking(20.0, 20.0),
                 sun: sun(180.0, 60.0),
-                ..clear()
+                ..Scene::clear()
             },
         },
         Preset {
@@ -28,7 +28,7 @@ pub(super) fn presets() -> Vec<Preset> {
             scene: Scene {
                 camera: looking(275.0, 12.0),
                 sun: sun(250.0, 6.0),
-                ..clear()
+                ..Scene::clear()
             },
         },
         Preset {
@@ -43,7 +43,7 @@ pub(super) fn presets() -> Vec<Preset> {
                     white_balance_k: 4500.0,
                     ..Display::default()
                 },
-                ..clear()
+                ..Scene::clear()
             },
         },
         Preset {
@@ -80,14 +80,6 @@ pub(super) fn presets() -> Vec<Preset> {
     ]
 }
 
-/// No clouds.
-fn clear() -> Scene {
-    Scene {
-        clouds: None,
-        ..Scene::default()
-    }
-}
-
 /// As photographers set the white of a night.
 fn night(white_balance_k: f64) -> Scene {
     Scene {
@@ -95,7 +87,7 @@ fn night(white_balance_k: f64) -> Scene {
             white_balance_k,
             ..Display::default()
         },
-        ..clear()
+        ..Scene::clear()
     }
 }
 
@@ -111,6 +103,6 @@ fn from_orbit() -> Scene {
             ..looking(75.0, -19.0)
         },
         sun: sun(90.0, -12.0),
-        ..clear()
+        ..Scene::clear()
     }
 }

@@ -72,8 +72,7 @@ fn complutense() -> Scene {
             tone_curve: ToneCurve::Exponential,
             ..Display::default()
         },
-        clouds: None,
-        ..Scene::default()
+        ..Scene::clear()
     }
 }
 
@@ -92,14 +91,11 @@ fn in_the_shell(clouds: Clouds) -> Scene {
 }
 
 /// 128 steps, the light followed over four; both published programs share them.
-fn shell(extent_m: f64, shape: Shape) -> Clouds {
+fn shell(weather: ProceduralMap, shape: Shape) -> Clouds {
     Clouds {
         coverage: 0.6,
         layers: vec![Layer::Volume(volume(15_000.0, 35_000.0, 1.0))],
-        weather_map: WeatherMap::Procedural(ProceduralMap {
-            extent_m,
-            ..ProceduralMap::default()
-        }),
+        weather_map: WeatherMap::Procedural(weather),
         shape: Shape {
             base_scale_m: 48_000.0,
             high_freq_modifier: 0.15,
@@ -125,7 +121,10 @@ fn bauman() -> Clouds {
         phase: lobes(0.6, -0.6, 0.3),
         powder: 1.0,
         ..shell(
-            480_000.0,
+            ProceduralMap {
+                extent_m: 480_000.0,
+                ..ProceduralMap::default()
+            },
             Shape {
                 detail_scale_m: 48_000.0,
                 ..Shape::default()
@@ -142,7 +141,11 @@ fn horizon() -> Clouds {
         powder: 0.0,
         haze: 0.5,
         ..shell(
-            4_096_000.0,
+            // So wide that a single cloud may fill the view; over this one's origin they break up.
+            ProceduralMap {
+                extent_m: 4_096_000.0,
+                seed: Some(3),
+            },
             Shape {
                 detail_scale_m: 4_800.0,
                 ..Shape::default()

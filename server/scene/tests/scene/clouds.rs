@@ -9,6 +9,7 @@ use welkin_scene::{
         AssetMap, BlendMap, Convention, Droplets, DualHenyeyGreenstein, Genus, Gradients, Layer, Phase,
         PlainMap, ProceduralMap, Shape, SheetLayer, UniformMap, VolumeLayer, WeatherMap, Wind,
     },
+    preset,
 };
 
 fn layer() -> impl Strategy<Value = Layer> {
@@ -181,12 +182,22 @@ fn read(clouds: Value) -> Clouds {
 #[test]
 fn nothing_is_fair_weather_and_null_is_no_cloud() {
     assert_eq!(read(json!({})), Clouds::default());
+    let unsaid = Scene::from_value(&json!({})).unwrap().clouds;
+    assert_eq!(unsaid, Some(Clouds::default()));
+    assert_eq!(preset("fair-weather").unwrap().scene.clouds, unsaid);
+    let thin = read(json!({"density": 0.2}));
+    let expected = Clouds {
+        density: 0.2,
+        ..Clouds::default()
+    };
+    assert_eq!(thin, expected);
     let none = Scene::from_value(&json!({"clouds": null})).unwrap();
     assert_eq!(none.clouds, None);
     assert_eq!(serde_json::to_value(&none).unwrap()["clouds"], Value::Null);
+    assert_eq!(none, Scene::clear());
 }
 
-/// The names are a contract.
+/// The names are a contract. It shows a sky half covered, which is more than fair weather's.
 #[test]
 fn the_published_example_is_what_it_says() {
     let clouds = read(json!({
@@ -205,7 +216,11 @@ fn the_published_example_is_what_it_says() {
         "extinction_per_m": 0.04, "albedo": 0.9999, "sun_factor": 1, "ambient_factor": 1, "powder": 0.5,
         "octaves": 8, "steps": 128, "light_steps": 6
     }));
-    assert_eq!(clouds, Clouds::default());
+    let half = Clouds {
+        coverage: 0.5,
+        ..Clouds::default()
+    };
+    assert_eq!(clouds, half);
     let clouds = read(json!({
         "weather_map": {"kind": "blend", "share": 0.25,
             "from": {"kind": "asset", "name": "front", "convention": "low-high-height-density"},

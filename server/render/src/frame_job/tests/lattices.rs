@@ -34,6 +34,7 @@ fn scene(changes: &serde_json::Value) -> Scene {
     let mut scene: Scene = serde_json::from_value(changes.clone()).unwrap();
     // Stars are added to radiance.
     scene.stars = None;
+    scene.clouds = None;
     scene
 }
 

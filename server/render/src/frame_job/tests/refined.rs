@@ -76,11 +76,7 @@ fn passes_leave_no_trace() {
 #[test]
 fn what_is_quickly_done_is_done_at_once() {
     let mut engine = engine();
-    let mut order = order(Scene::default(), 75, 45, Output::Display);
-    order.scene = Arc::new(Scene {
-        clouds: None,
-        ..Scene::default()
-    });
+    let mut order = order(Scene::clear(), 75, 45, Output::Display);
     for (quality, pixels, in_passes) in [
         (Quality::Final, 75 * 45 / 5, false),
         (Quality::Final, 75 * 45 / 5 - 1, true),
