@@ -47,7 +47,7 @@ test('one number becomes three and one again', () =>
     assert.equal(await red.inputValue(), '3.996e-6');
     await changing(page, () => red.fill('2e-4'));
     assert.ok(difference(before, await colours(page)) > SEEN, 'the haze is red');
-    await page.waitForURL('**#atmosphere.mie.scattering_per_m=[0.0002,0.000003996,0.000003996]&clouds=null');
+    await page.waitForURL('**#clouds=null&atmosphere.mie.scattering_per_m=[0.0002,0.000003996,0.000003996]');
     await changing(page, () => toggle.click());
     // The mean of the three, four digits.
     assert.equal(await numberAt(page, '/atmosphere/mie/scattering_per_m'), 6.933e-5);

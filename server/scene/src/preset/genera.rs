@@ -132,7 +132,7 @@ fn high() -> Vec<Preset> {
         Preset {
             name: "altostratus",
             title: "Altostratus",
-            description: "A grey veil at 4500 m over all the sky; the sun behind it is a bright patch.",
+            description: "A grey veil at 4500 m over all the sky, so thick that the sun before the camera is not made out.",
             scene: high_scene(25.0, 15.0, 35.0, (4_500.0, Some(12.0)), Genus::Altostratus, 1.0),
         },
         Preset {
