@@ -130,7 +130,9 @@ fn every_command_in_the_documentation_runs() {
         let bytes = fs::read(folder.join(name)).unwrap();
         assert!(bytes.starts_with(magic), "{name} is not what its name says");
     };
-    begins("sunset.jpg", &[0xff, 0xd8, 0xff]);
+    for name in ["sunset.jpg", "storm.jpg", "layers.jpg", "front.jpg", "moment.jpg"] {
+        begins(name, &[0xff, 0xd8, 0xff]);
+    }
     begins("madrid.exr", &[0x76, 0x2f, 0x31, 0x01]);
     begins("sky.exr", &[0x76, 0x2f, 0x31, 0x01]);
     begins("orbit.png", b"\x89PNG");
