@@ -79,7 +79,7 @@ test('the copied scene is one that the server takes, and the link leads back', (
       method: 'POST', headers: { 'content-type': 'application/json' }, body: JSON.stringify({ scene, width_px: 32, height_px: 32 }),
     });
     assert.equal(answer.status, 200);
-    assert.match(await copied('link'), /#sun\.position\.azimuth_deg=181/);
+    assert.match(await copied('link'), /[#&]sun\.position\.azimuth_deg=181/);
   }));
 
 test('a lost connection is said and comes back with the scene as it is by then', () =>
