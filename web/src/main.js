@@ -7,6 +7,7 @@ import { byId } from './dom.js';
 import { createDome } from './dome.js';
 import { createDrags } from './drag.js';
 import { createDrawers } from './drawers.js';
+import { createFlight } from './fly/flight.js';
 import { createGallery } from './gallery.js';
 import { listenToGestures } from './gestures.js';
 import { createHud } from './hud.js';
@@ -67,11 +68,14 @@ async function start() {
   createShare(store, address.link, stage.size);
   const save = createSave(store, stage.size);
   const help = byId('help', HTMLDialogElement);
+  const flight = createFlight(canvas, store, camera, sun, () => timePlace.current().latitude_deg);
   const keys = bindings({
     sun,
     camera,
+    flight,
     preset: presets.choose,
     panel: panel.toggle,
+    device: hud.toggle,
     bare: () => document.body.classList.toggle('bare'),
     save: save.open,
     play: timeline.playOrPause,
@@ -79,13 +83,13 @@ async function start() {
     help: () => help.showModal(),
   });
   fillHelp(keys);
-  listenToKeys(keys);
+  listenToKeys(keys, flight);
   byId('open-help', HTMLButtonElement).addEventListener('click', () => help.showModal());
   byId('open-save', HTMLButtonElement).addEventListener('click', save.open);
   listenToGestures(canvas, createDrags({ sun, moon, camera, stage }), camera);
   if (narrow.matches) panel.show(false);
 
-  sky.run([panel, presets, gallery, painter, timeline, timePlace, createDome(store, sun, moon), createMark(sun, camera, stage)]);
+  sky.run([panel, presets, gallery, painter, timeline, timePlace, createDome(store, sun, moon), createMark(sun, camera, stage), flight], flight.step);
 }
 
 start().catch((error) => complain(`The page cannot start: ${error.message}`));
