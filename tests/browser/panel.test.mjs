@@ -191,7 +191,7 @@ test('help, panel and everything else are shown and hidden by keys', () =>
     await page.keyboard.press('i');
     await page.locator('#panel').waitFor({ state: 'hidden' });
     await page.keyboard.press('v');
-    await page.locator('[data-pass="sky"]').waitFor({ state: 'visible' });
+    await page.locator('#hud[open]').waitFor();
     await page.keyboard.press('b');
     await page.locator('#hud').waitFor({ state: 'hidden' });
     await page.keyboard.press('b');
