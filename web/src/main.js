@@ -25,6 +25,7 @@ import { createStage } from './stage.js';
 import { createStore } from './store.js';
 import { createSun } from './sun.js';
 import { createSurprise } from './surprise.js';
+import { createTerrainFiles } from './terrain/files.js';
 import { createTimePlace } from './time-place.js';
 import { createTimelineBar } from './timeline/bar.js';
 import { createPlayer } from './timeline/player.js';
@@ -51,6 +52,7 @@ async function start() {
   const timePlace = createTimePlace(store);
   timePlace.onLeave(() => sun.nudge(0, 0));
   createWeatherReport(store);
+  const terrain = createTerrainFiles(store, { drop: canvas });
   const presets = createPresets(store, presetList);
   const fair = presets.all.find(({ name }) => name === FAIR)?.scene.clouds;
   const player = createPlayer(() => performance.now());
@@ -59,8 +61,11 @@ async function start() {
   const gallery = createGallery(presets);
   const surprise = createSurprise(store, byId('surprise', HTMLButtonElement), fair);
   const sky = createSky({ store, stage, sun, moon, hud, player, stopped: timeline.refused, refused: (pointer, message) => panel.complain(pointer, message) || complain(message) });
-  const known = { sun: sun.angles, moon: moon.place, ev: sky.exposure, timeAndPlace: timePlace.current, mapName: painter.mapName };
-  const suggestions = (/** @type {string} */ pointer) => (pointer.endsWith('/name') ? painter.names() : []);
+  const known = { sun: sun.angles, moon: moon.place, ev: sky.exposure, timeAndPlace: timePlace.current, mapName: painter.mapName, meshName: terrain.meshName, mountains: terrain.mountains, heightfields: terrain.heightfields };
+  const suggestions = (/** @type {string} */ pointer) => {
+    if (pointer === '/terrain/name') return terrain.names();
+    return pointer.endsWith('/name') ? painter.names() : [];
+  };
   const panel = createPanel(store, (value, fresh) => carryOver(value, fresh, known), known, suggestions);
   const narrow = window.matchMedia('(max-width: 720px)');
   const drawers = createDrawers({ gallery, painter }, () => narrow.matches && panel.show(false));
@@ -89,7 +94,7 @@ async function start() {
   listenToGestures(canvas, createDrags({ sun, moon, camera, stage }), camera);
   if (narrow.matches) panel.show(false);
 
-  sky.run([panel, presets, gallery, painter, timeline, timePlace, createDome(store, sun, moon), createMark(sun, camera, stage), flight], flight.step);
+  sky.run([panel, presets, gallery, painter, timeline, timePlace, terrain, createDome(store, sun, moon), createMark(sun, camera, stage), flight], flight.step);
 }
 
 start().catch((error) => complain(`The page cannot start: ${error.message}`));

@@ -2,6 +2,7 @@
 import { byId } from '../dom.js';
 import { toast } from '../toast.js';
 import { createDay } from './day.js';
+import { createGround } from './ground.js';
 import { createHeld } from './held.js';
 import { createLock } from './lock.js';
 import { createPads } from './pads.js';
@@ -16,7 +17,7 @@ const [SPEED_STEP, LARGE_SPEED_STEP] = [1.25, 100];
  * @param {import('../sun.js').Sun} sun @param {() => number} latitude Of the place that the page shows, degrees
  */
 export function createFlight(surface, store, camera, sun, latitude) {
-  const pilot = createPilot(camera, () => 0);
+  const pilot = createPilot(camera, createGround(store, camera));
   const held = createHeld();
   const day = createDay(store, sun, latitude);
   const readout = createReadout(camera, pilot);

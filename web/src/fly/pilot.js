@@ -30,7 +30,7 @@ export const speedAt = (height) => WALK_M_S + PER_HEIGHT_S * Math.max(height - W
 
 /**
  * @param {import('../camera.js').Camera} camera
- * @param {() => number} ground Height of the ground under the camera over the sphere, metres
+ * @param {Pick<import('./ground.js').Ground, 'height' | 'watch'>} ground Under the camera
  */
 export function createPilot(camera, ground) {
   /** @type {(() => Intent)[]} */
@@ -39,14 +39,18 @@ export function createPilot(camera, ground) {
   let factor = 1;
   let isTurbo = false;
   let isOn = true;
+  /** How high one stands over the ground while one walks. @type {number | null} */
+  let standing = null;
+  /** Where the last step led: who is elsewhere was put there. @type {import('./pose.js').Pose | null} */
+  let last = null;
 
   const intent = () => {
     const all = hands.map((hand) => hand());
     const sum = (/** @type {keyof Intent} */ key) => (isOn ? clamp(all.reduce((s, one) => s + one[key], 0), -1, 1) : 0);
     return /** @type {Intent} */ (Object.fromEntries(Object.keys(STILL).map((key) => [key, sum(/** @type {keyof Intent} */ (key))])));
   };
-  const height = () => camera.altitude() - ground();
-  const speed = () => Math.min(speedAt(height()) * factor * (isTurbo || flow.turbo > 0.5 ? TURBO : 1), FASTEST_M_S);
+  const height = () => camera.altitude() - ground.height();
+  const speed = () => Math.min(speedAt(standing ?? height()) * factor * (isTurbo || flow.turbo > 0.5 ? TURBO : 1), FASTEST_M_S);
 
   /** @param {number} seconds */
   const ease = (seconds) => {
@@ -57,6 +61,14 @@ export function createPilot(camera, ground) {
       return wanted[key] === 0 && Math.abs(value) < AT_REST ? 0 : value;
     };
     flow = /** @type {Intent} */ (Object.fromEntries(Object.keys(STILL).map((key) => [key, next(/** @type {keyof Intent} */ (key))])));
+  };
+
+  /** How far the ground lifts who walks on it. @param {number} seconds @param {Intent} asked */
+  const lift = (seconds, { ahead, right, up }) => {
+    if (up !== 0 || camera.pose() !== last) standing = null;
+    if (up === 0 && (ahead !== 0 || right !== 0) && height() <= WALK_BELOW_M) standing ??= height() < FLOOR_M ? EYE_M : height();
+    const left = standing === null ? 0 : standing - height();
+    return Math.abs(left) < AT_REST ? 0 : left * (1 - Math.exp(-seconds / EASE_S));
   };
 
   return {
@@ -77,16 +89,20 @@ export function createPilot(camera, ground) {
     step(seconds) {
       ease(seconds);
       const { ahead, right, up, turn, pitch } = flow;
-      if ([ahead, right, up, turn, pitch].every((v) => v === 0)) return;
+      const isStill = [ahead, right, up, turn, pitch].every((v) => v === 0);
+      const rise = lift(seconds, flow);
+      if (isStill && rise === 0) return;
       const [from, radius] = [camera.pose(), camera.radius()];
       const reach = speed() * seconds;
-      const isWalking = height() <= WALK_BELOW_M;
-      const climb = isWalking ? 0 : from.pitch_deg * (Math.PI / 180);
-      const least = ground() + Math.max(up < 0 ? 0 : Math.min(height(), EYE_M), FLOOR_M);
-      const step = { ahead: ahead * reach * Math.cos(climb), right: right * reach, up: up * reach + ahead * reach * Math.sin(climb) };
+      const climb = standing !== null || height() <= WALK_BELOW_M ? 0 : from.pitch_deg * (Math.PI / 180);
+      // Walkers are lifted gently, who flies is kept out of the mountain.
+      const least = standing === null ? ground.height() + Math.max(up < 0 ? 0 : Math.min(height(), EYE_M), FLOOR_M) : FLOOR_M;
+      const step = { ahead: ahead * reach * Math.cos(climb), right: right * reach, up: rise + up * reach + ahead * reach * Math.sin(climb) };
       const rate = TURN_DEG_S * Math.min(1, camera.fieldDeg() / 60) * seconds;
       const next = camera.isFree() ? turned(from, radius, turn * rate, pitch * rate) : from;
-      camera.place(moved(next, radius, step, [least, MOST_ALTITUDE_M]));
+      last = moved(next, radius, step, [least, MOST_ALTITUDE_M]);
+      camera.place(last);
+      ground.watch();
     },
   };
 }
