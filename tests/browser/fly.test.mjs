@@ -224,6 +224,25 @@ test('keys that are typed into fields, held with Ctrl or lost with the focus do 
     assert.equal(sent(page).length, count);
   }, SMALL));
 
+test('Ctrl while flying does not let a closing key by, and alone it does', () =>
+  open(async (page) => {
+    const isHeld = () => page.evaluate(() => !window.dispatchEvent(new Event('beforeunload', { cancelable: true })));
+    await page.keyboard.down('Control');
+    assert.equal(await isHeld(), false);
+    await page.keyboard.down('w');
+    assert.equal(await isHeld(), false, 'Ctrl first is the browser’s');
+    await page.keyboard.up('w');
+    await page.keyboard.up('Control');
+    await page.keyboard.down('w');
+    await page.keyboard.down('Control');
+    assert.ok(await isHeld());
+    await page.keyboard.up('Control');
+    await page.keyboard.up('w');
+    await rested(page);
+    assert.equal(await isHeld(), false);
+    await settled(page);
+  }, SMALL));
+
 test('the help names every key of the camera', () =>
   open(async (page) => {
     await page.keyboard.press('h');
