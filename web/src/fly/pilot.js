@@ -102,7 +102,7 @@ export function createPilot(camera, ground) {
       const next = camera.isFree() ? turned(from, radius, turn * rate, pitch * rate) : from;
       last = moved(next, radius, step, [least, MOST_ALTITUDE_M]);
       camera.place(last);
-      ground.watch();
+      ground.watch(speed());
     },
   };
 }
