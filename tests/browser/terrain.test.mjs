@@ -56,7 +56,7 @@ test('mountains from a seed, others, and none', () =>
     await telling(page, () => turnOn.check());
     assert.equal(terrain().mountains.seed, 1, 'the switch begins with mountains whose seed is seen');
     await settled(page);
-  }, { ...SMALL, logs: /404/ }));
+  }, SMALL));
 
 test('who walks is carried by the ground, who flies is kept out of it', () =>
   open(
