@@ -16,6 +16,7 @@ mod properties;
 mod schemas;
 mod strategies;
 mod sun;
+mod terrain;
 mod timeline;
 mod timeline_random;
 mod timeline_sky;

@@ -1,5 +1,9 @@
 //! What a scene refers to by name, and what a renderer gets for it.
 
+mod terrain;
+
+pub use terrain::{HeightGrid, Material, MeshModel, Texture};
+
 use crate::{
     clouds::{AssetMap, BlendMap, PlainMap, WeatherMap},
     document::Scene,
@@ -35,14 +39,6 @@ pub struct WeatherPicture {
     pub digest: [u8; 32],
 }
 
-impl PartialEq for WeatherPicture {
-    fn eq(&self, other: &Self) -> bool {
-        self.digest == other.digest
-    }
-}
-
-impl Eq for WeatherPicture {}
-
 impl fmt::Debug for WeatherPicture {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Self {
@@ -56,35 +52,62 @@ impl fmt::Debug for WeatherPicture {
     }
 }
 
-impl WeatherPicture {
-    /// The digest in hexadecimal.
-    #[must_use]
-    pub fn digest_hex(&self) -> String {
-        self.digest.iter().map(|byte| format!("{byte:02x}")).collect()
-    }
+/// Equal by digest, which is also shown.
+macro_rules! known_by_digest {
+    ($($asset:ident),*) => { $(
+        impl PartialEq for $asset {
+            fn eq(&self, other: &Self) -> bool {
+                self.digest == other.digest
+            }
+        }
+
+        impl Eq for $asset {}
+
+        impl $asset {
+            /// The digest in hexadecimal.
+            #[must_use]
+            pub fn digest_hex(&self) -> String {
+                self.digest.iter().map(|byte| format!("{byte:02x}")).collect()
+            }
+        }
+    )* };
 }
+
+known_by_digest!(WeatherPicture, HeightGrid, MeshModel);
 
 /// The assets that a scene refers to, each under its name. Equal where every name stands for the same content.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct SceneAssets {
     /// Weather maps.
     pub weather_maps: BTreeMap<String, Arc<WeatherPicture>>,
+    /// Heightfields.
+    pub heightfields: BTreeMap<String, Arc<HeightGrid>>,
+    /// Meshes.
+    pub meshes: BTreeMap<String, Arc<MeshModel>>,
 }
 
 impl SceneAssets {
-    /// Equal to this, and holds no pixels: for comparing later.
+    /// Equal to this, and holds no content: for comparing later.
     #[must_use]
-    pub fn without_pixels(&self) -> Self {
-        let bare = |(name, picture): (&String, &Arc<WeatherPicture>)| {
-            let rgba = Arc::default();
-            let picture = WeatherPicture {
-                rgba,
-                ..WeatherPicture::clone(picture)
-            };
-            (name.clone(), Arc::new(picture))
-        };
+    pub fn without_content(&self) -> Self {
+        fn bare<T>(assets: &BTreeMap<String, Arc<T>>, bare: impl Fn(&T) -> T) -> BTreeMap<String, Arc<T>> {
+            let each = assets.iter();
+            each.map(|(name, asset)| (name.clone(), Arc::new(bare(asset))))
+                .collect()
+        }
         Self {
-            weather_maps: self.weather_maps.iter().map(bare).collect(),
+            weather_maps: bare(&self.weather_maps, |picture| WeatherPicture {
+                rgba: Arc::default(),
+                ..*picture
+            }),
+            heightfields: bare(&self.heightfields, |grid| HeightGrid {
+                heights: Arc::default(),
+                ..*grid
+            }),
+            meshes: bare(&self.meshes, |mesh| MeshModel {
+                digest: mesh.digest,
+                ..MeshModel::default()
+            }),
         }
     }
 }
@@ -159,8 +182,8 @@ mod tests {
     }
 
     #[test]
-    fn without_pixels_content_is_still_told_apart() {
-        let assets = |digest| SceneAssets {
+    fn without_their_content_assets_are_still_told_apart() {
+        let assets = |digest: u8| SceneAssets {
             weather_maps: [(
                 "front".to_owned(),
                 Arc::new(WeatherPicture {
@@ -171,11 +194,37 @@ mod tests {
                 }),
             )]
             .into(),
+            heightfields: [(
+                "alps".to_owned(),
+                Arc::new(HeightGrid {
+                    width: 2,
+                    height: 2,
+                    heights: vec![0.0; 4].into(),
+                    range_m: None,
+                    extent_m: None,
+                    digest: [digest / 2; 32],
+                }),
+            )]
+            .into(),
+            meshes: [(
+                "town".to_owned(),
+                Arc::new(MeshModel {
+                    positions: vec![[0.0; 3]].into(),
+                    digest: [digest / 4; 32],
+                    ..MeshModel::default()
+                }),
+            )]
+            .into(),
         };
-        let bare = assets(1).without_pixels();
+        let bare = assets(0).without_content();
         assert!(bare.weather_maps["front"].rgba.is_empty());
-        assert_eq!(bare, assets(1));
-        assert_ne!(bare, assets(2));
+        assert!(bare.heightfields["alps"].heights.is_empty());
+        assert!(bare.meshes["town"].positions.is_empty());
+        assert_eq!(bare, assets(0));
+        for other in [1, 2, 4] {
+            assert_ne!(assets(other).without_content(), assets(other ^ 7));
+            assert_ne!(bare, assets(other));
+        }
         assert_ne!(bare, SceneAssets::default());
     }
 
