@@ -8,8 +8,12 @@
 
 mod concurrent;
 mod files;
+mod glb;
+mod heights;
 mod limits;
+mod meshes;
 mod pictures;
 mod refusals;
 mod sandbox;
 mod scenes;
+mod thesis;
