@@ -79,3 +79,34 @@ fn where_there_is_no_folder_that_is_told() {
         "{missing}"
     );
 }
+
+/// Files of every kind are looked for in the folder, and what is wrong with one is told under the field that names it.
+#[test]
+fn terrain_that_cannot_be_used_is_refused_with_its_reason() {
+    let folder = tempfile::tempdir().unwrap();
+    let hut = folder.path().join("meshes/hut");
+    fs::create_dir_all(&hut).unwrap();
+    fs::write(hut.join("hut.obj"), "mtllib ../secret.mtl\nv 0 0 0\n").unwrap();
+    fs::create_dir(folder.path().join("heightfields")).unwrap();
+    fs::write(folder.path().join("heightfields/alps.tif"), "no TIFF").unwrap();
+    let assets = folder.path().to_string_lossy().into_owned();
+    let path = folder.path().join("scene.json");
+    for (terrain, told) in [
+        (r#"{"kind": "mesh", "name": "hut"}"#, "../secret.mtl"),
+        (
+            r#"{"kind": "mesh", "name": "town"}"#,
+            "there is no asset town among the meshes",
+        ),
+        (
+            r#"{"kind": "heightfield", "name": "alps"}"#,
+            "send a grey PNG of 16 bits, a GeoTIFF or an NPY",
+        ),
+    ] {
+        fs::write(&path, format!(r#"{{"terrain": {terrain}}}"#)).unwrap();
+        let scene = path.to_string_lossy().into_owned();
+        let args = ["probe", &scene, "[[0, 0, 1]]", "--json", "--assets", &assets];
+        let problem = problem(&welkin(&args, folder.path()), 2);
+        assert_eq!(problem["pointer"], "/terrain/name");
+        assert!(problem["detail"].as_str().unwrap().contains(told), "{problem}");
+    }
+}

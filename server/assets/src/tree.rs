@@ -12,6 +12,9 @@ use std::io;
 /// Folders within folders.
 const MOST_DEPTH: usize = 8;
 
+/// Files by their paths within the folder.
+pub(crate) type Files = Vec<(String, Vec<u8>)>;
+
 /// What changes when a file in the folder does.
 pub(crate) fn stamp(folder: &Dir) -> io::Result<Stamp> {
     let mut stamps = Vec::new();
@@ -25,7 +28,7 @@ pub(crate) fn stamp(folder: &Dir) -> io::Result<Stamp> {
 }
 
 /// The files with their paths, in their order; none where they are too many or too large.
-pub(crate) fn packed(folder: &Dir, limit_bytes: u64) -> io::Result<Option<Vec<(String, Vec<u8>)>>> {
+pub(crate) fn packed(folder: &Dir, limit_bytes: u64) -> io::Result<Option<Files>> {
     let mut files = Vec::new();
     let mut left_bytes = limit_bytes;
     let whole = visit(folder, "", 0, &mut |within, file_name, path| {

@@ -57,8 +57,7 @@ fn shares(
         if is_unknown(height) {
             continue;
         }
-        // Not a number compares as false.
-        if !(height.abs() <= MOST_HEIGHT_M) {
+        if height.is_nan() || height.abs() > MOST_HEIGHT_M {
             let (row, column) = (i / width as usize, i % width as usize);
             return Err(Error::refused(format!(
                 "the height in row {row}, column {column} is {height}: heights are metres, {MOST_HEIGHT_M} at most"

@@ -91,16 +91,26 @@ fn nameless(materials: &mut Vec<Material>) -> usize {
 
 /// Counts what the reader will make, before it does, and finds the libraries that it will ask for.
 fn survey(text: &str) -> Result<Vec<String>, Error> {
-    let (mut triangles, mut vertices, mut libraries) = (0_usize, 0_usize, Vec::new());
-    for (i, line) in text.lines().enumerate() {
+    let (mut triangles, mut libraries) = (0_usize, Vec::new());
+    // Of positions, texture coordinates and normals; and the first face that names one.
+    let (mut counts, mut named) = ([0_usize; 3], [None; 3]);
+    for (line, i) in text.lines().zip(1..) {
         let mut words = line.split_whitespace();
         match words.next() {
-            Some("f") => triangles += words.count().saturating_sub(2),
-            Some("v" | "vn" | "vt") => vertices += 1,
+            Some("v") => counts[0] += 1,
+            Some("vt") => counts[1] += 1,
+            Some("vn") => counts[2] += 1,
+            Some("f") => {
+                for (corner, word) in words.enumerate() {
+                    triangles += usize::from(corner > 1);
+                    for (part, first) in word.split('/').zip(&mut named) {
+                        *first = first.or((!part.is_empty()).then_some(i));
+                    }
+                }
+            }
             Some("o" | "g" | "usemtl") if line.len() > MOST_NAME_BYTES => {
                 return Err(Error::refused(format!(
-                    "line {} of the OBJ has {} bytes: names have {MOST_NAME_BYTES} at most",
-                    i + 1,
+                    "line {i} of the OBJ has {} bytes: names have {MOST_NAME_BYTES} at most",
                     line.len()
                 )));
             }
@@ -109,8 +119,19 @@ fn survey(text: &str) -> Result<Vec<String>, Error> {
             _ => {}
         }
     }
-    // Positions, normals and texture coordinates are counted together: three of each triangle's corner.
-    check_size(triangles, vertices / 3)?;
+    // The reader makes as many vertices as corners of triangles at most.
+    check_size(triangles, counts.into_iter().max().unwrap_or_default())?;
+    // Where a file has none at all, the reader passes over the numbers of those that faces name.
+    for (what, count, line) in [
+        ("texture coordinates", counts[1], named[1]),
+        ("normals", counts[2], named[2]),
+    ] {
+        if let (0, Some(line)) = (count, line) {
+            return Err(Error::refused(format!(
+                "line {line} of the OBJ names {what}, and it has none"
+            )));
+        }
+    }
     Ok(libraries)
 }
 

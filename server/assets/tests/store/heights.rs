@@ -56,9 +56,8 @@ where
 {
     let mut file = Cursor::new(Vec::new());
     let mut encoder = TiffEncoder::new(&mut file).unwrap();
-    let mut picture = encoder
-        .new_image::<C>(width, numbers.len() as u32 / width)
-        .unwrap();
+    let pixels = (numbers.len() / C::BITS_PER_SAMPLE.len()) as u32;
+    let mut picture = encoder.new_image::<C>(width, pixels / width).unwrap();
     let tags = picture.encoder();
     if let Some(pixel) = &place.pixel {
         tags.write_tag(Tag::ModelPixelScaleTag, &pixel[..]).unwrap();

@@ -1,9 +1,6 @@
 //! The mountains and the town of tests/tools/ground_assets.mjs, against what trimesh finds of them.
 
-use crate::{
-    files::{name, store},
-    meshes::MESHES,
-};
+use crate::files::{name, store};
 use serde_json::Value;
 use std::{fs, path::Path, process::Command};
 use welkin_scene::MeshModel;
