@@ -23,7 +23,10 @@ fn welkin(args: &[&str], home: &Path) -> Output {
 fn problem(output: &Output, code: i32) -> Value {
     let said = String::from_utf8_lossy(&output.stderr);
     assert_eq!(output.status.code(), Some(code), "{said}");
-    serde_json::from_slice(&output.stderr).unwrap()
+    // The log may have told before of files that are of no use.
+    let begin = said.lines().position(|line| line.starts_with('{')).unwrap();
+    let told: Vec<_> = said.lines().skip(begin).collect();
+    serde_json::from_str(&told.join("\n")).unwrap()
 }
 
 /// A folder with a scene that names the weather map `front`, and the path of that scene.
