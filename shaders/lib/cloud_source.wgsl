@@ -30,8 +30,10 @@ struct CloudRay {
     azimuth: f32,
     zenith_angle: f32,
     ground: bool,
-    // To the ground, or farther than anything.
+    // To the sphere, or farther than anything.
     end_m: f32,
+    // To what stands on it, or as far as that.
+    stop_m: f32,
     // The stretch in the air.
     air_from_m: f32,
     air_length_m: f32,
@@ -174,6 +176,6 @@ fn unlit_air(ray: CloudRay) -> vec3f {
         return vec3f(0.0);
     }
     let up_m = distance_to_top(clouds.radius_m, shade.base_m, view.altitude_m, ray.mu);
-    let under = air_before(ray, min(up_m, ray.end_m));
+    let under = air_before(ray, min(up_m, ray.stop_m));
     return (1.0 - shade.direct_left) * under.single + (1.0 - shade.diffuse_left) * under.multiple;
 }

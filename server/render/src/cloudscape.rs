@@ -38,7 +38,7 @@ use welkin_scene::{
 /// The passes of the clouds.
 pub(crate) struct CloudPasses {
     noise: CloudNoise,
-    aerial: Aerial,
+    pub(crate) aerial: Aerial,
     shadow: CloudShadow,
     pub(crate) dome: CloudDomes,
     pictures: Memo<Table>,
@@ -67,6 +67,8 @@ pub(crate) struct Cloudscape {
     multi_scattering: Arc<MultiScattering>,
     pub(crate) aerial: Arc<AerialVolumes>,
     pub(crate) shadow: Arc<Table>,
+    /// Altitude of the lowest.
+    pub(crate) base_m: f32,
     place_m: Vec3,
     light: Vec3,
     made_from: Fingerprint,
@@ -282,6 +284,7 @@ impl CloudPasses {
         let scene = sky.scene;
         let clouds = Part::new(&sky.uniform(fineness(quality)));
         let shade = sky.shade(&light.stand, scene.camera.position_m);
+        let base_m = shade.base_m;
         let shade = Part::new(&shade);
         let reads = (&*tables.transmittance, &tables.multi_scattering.source);
         let aerial = self
@@ -323,6 +326,7 @@ impl CloudPasses {
             multi_scattering: Arc::clone(&tables.multi_scattering),
             aerial,
             shadow,
+            base_m,
             place_m: crate::uniforms::narrow3(scene.camera.position_m),
             light: light.stand.sun.as_vec3(),
             made_from,

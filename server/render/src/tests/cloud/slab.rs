@@ -33,7 +33,13 @@ pub(super) fn look(gpu: &Gpu, scene: &Scene, assets: &SceneAssets, size_px: UVec
         origin_px: UVec2::ZERO,
         size_px,
     };
-    let seen = CloudView::new().run(&mut recorder, &scape, (&camera, tables.plan.projection), tile);
+    let seen = CloudView::new().run(
+        &mut recorder,
+        &scape,
+        (&camera, tables.plan.projection),
+        tile,
+        None,
+    );
     recorder.finish(&[], |_| ()).unwrap();
     read_table(gpu, &seen.view, 0)
 }

@@ -1,0 +1,3 @@
+//! What stands on the sphere: rays against the shape, its shadow, its light.
+
+mod heightfield;
