@@ -9,6 +9,7 @@ import package::lib::harmonics::irradiance_towards;
 import package::lib::light::{View, scattered_radiance};
 import package::lib::scattering::{March, Scattered, scatter_along};
 import package::lib::seen_ground::{PackedGround, SeenGround, unpack_ground};
+import package::lib::shaft_lattice::{depth_weight, lattice_count, lattice_weight};
 import package::lib::source::cosine_of_azimuth;
 import package::lib::tables::{SkyViewRay, light_from_table, sky_view_coordinate, sun_cosine_unit, unit_to_coordinate};
 import package::lib::transmittance::transmittance_to_space;
@@ -34,6 +35,13 @@ override LIST: bool = false;
 struct Tile {
     origin_px: vec2u,
     size_px: vec2u,
+}
+
+struct Shafts {
+    // Pixels from one place of the lattice to the next.
+    grain: u32,
+    // Places along a ray.
+    steps: u32,
 }
 
 struct CloudFrame {
@@ -68,6 +76,9 @@ struct CloudFrame {
 @group(0) @binding(20) var<storage, read> sky_harmonics: array<vec4f>;
 // Radiance in R, G, B and how far away it is; where nothing stands, what the sky loses to shafts, and -1.
 @group(0) @binding(21) var<storage, read_write> lit_ground: array<vec4f>;
+@group(0) @binding(22) var<uniform> settings: Shafts;
+// Radiance in R, G, B, and how far away the ray ends; of a lattice of the tile's pixels, or of each direction.
+@group(0) @binding(23) var<storage, read> lost: array<vec4f>;
 
 // Where on the ground light falls.
 struct Place {
@@ -179,11 +190,44 @@ fn radiance_towards(direction: vec3f, found: SeenGround) -> vec3f {
     return between + exp(-light.optical_depth) * seen_there;
 }
 
-fn write(i: u32, direction: vec3f) {
+// What a ray through a pixel of the tile loses to shafts.
+fn lost_at(pixel: vec2u, end_m: f32) -> vec3f {
+    let count = lattice_count(tile.size_px, settings.grain);
+    let place = vec2f(pixel) / f32(settings.grain);
+    let nearest = vec2i(round(place));
+    var sum = vec3f(0.0);
+    var weights = 0.0;
+    for (var k = 0; k < 9; k++) {
+        let at = nearest + vec2i(k % 3, k / 3) - 1;
+        if any(at < vec2i(0)) || any(at >= vec2i(count)) {
+            continue;
+        }
+        let there = lost[u32(at.y) * count.x + u32(at.x)];
+        let weight = lattice_weight(place - vec2f(at)) * depth_weight(end_m, there.w);
+        sum += weight * there.rgb;
+        weights += weight;
+    }
+    return sum / max(weights, 1e-12);
+}
+
+const ENDLESS_M = 1e12;
+
+fn write(i: u32, direction: vec3f, pixel: vec2u) {
     let found = unpack_ground(seen[i]);
     var value = vec4f(0.0, 0.0, 0.0, -1.0);
     for (var there = found.distance_m >= 0.0; there; there = false) {
         value = vec4f(radiance_towards(direction, found), found.distance_m);
+    }
+    if SHAFTS {
+        let met_m = distance_to_sphere(air.radius_m, view.altitude_m, dot(direction, view.up));
+        let end_m = select(select(ENDLESS_M, met_m, met_m >= 0.0), found.distance_m, found.distance_m >= 0.0);
+        var less: vec3f;
+        if LIST {
+            less = lost[i].rgb;
+        } else {
+            less = lost_at(pixel, end_m);
+        }
+        value = vec4f(select(less, max(value.rgb - less, vec3f(0.0)), found.distance_m >= 0.0), value.w);
     }
     lit_ground[i] = value;
 }
@@ -192,7 +236,7 @@ fn write(i: u32, direction: vec3f) {
 fn ground_light(@builtin(global_invocation_id) id: vec3u) {
     if LIST {
         if id.x < arrayLength(&directions) && id.y == 0u {
-            write(id.x, directions[id.x].xyz);
+            write(id.x, directions[id.x].xyz, vec2u(0u));
         }
         return;
     }
@@ -200,5 +244,5 @@ fn ground_light(@builtin(global_invocation_id) id: vec3u) {
         return;
     }
     let sight = sight_at(camera, PROJECTION, vec2f(tile.origin_px + id.xy) + 0.5);
-    write(id.y * tile.size_px.x + id.x, sight.direction);
+    write(id.y * tile.size_px.x + id.x, sight.direction, id.xy);
 }

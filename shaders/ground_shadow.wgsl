@@ -3,9 +3,9 @@ import package::lib::ground::{ground};
 import package::lib::ground_cast::cast_ground;
 import package::lib::ground_shadow::{GroundShadow, texel_origin};
 
-@group(0) @binding(3) var<uniform> shadow: GroundShadow;
+@group(0) @binding(1) var<uniform> shadow: GroundShadow;
 // Two texels a word, each from 0 to 1 over the map's depth; 0 where nothing stands.
-@group(0) @binding(4) var<storage, read_write> map: array<u32>;
+@group(0) @binding(2) var<storage, read_write> map: array<u32>;
 
 fn depth_at(texel: vec2u) -> f32 {
     let depth_m = 2.0 * shadow.half_m.z;

@@ -42,7 +42,7 @@ fn field_at(p: vec3f, pixel_m: f32, distance_m: f32) -> SeenGround {
     let height = height_at(p);
     var albedo = skin_albedo(skin, p.xy, height, plain.z, pixel_m);
     // Stones and tufts, too small for the field.
-    let bumps = 0.35 * skin.mottled * vec2f(skin_waves(p.xy, 9.0, 3u, pixel_m), skin_waves(p.yx + 57.0, 9.0, 3u, pixel_m));
+    let bumps = 0.16 * skin.mottled * vec2f(skin_waves(p.xy, 9.0, 3u, pixel_m), skin_waves(p.yx + 57.0, 9.0, 3u, pixel_m));
     let normal = normalize(plain + vec3f(bumps, 0.0));
     let half = 0.5 * vec2f(ground.cells) * ground.cell_m;
     let inwards = 1.0 - abs(p.xy) / half;

@@ -166,7 +166,7 @@ fn is_ground_within(begin: vec2u, end: vec2u) -> bool {
     for (var y = begin.y; y < end.y; y++) {
         for (var x = begin.x; x < end.x; x++) {
             let before = lit_ground[(y - tile.origin_px.y) * tile.size_px.x + x - tile.origin_px.x];
-            there |= before.w >= 0.0 || any(before.rgb != vec3f(0.0));
+            there |= before.w >= 0.0;
         }
     }
     return there;
@@ -219,6 +219,13 @@ fn write_place(id: vec2u) {
     if sight.seen && clear.even < 2.0 {
         let nu = clamp(dot(sight.direction, view.sun), -1.0, 1.0);
         clear.seen = radiance_of(light_towards(sight.direction, dot(sight.direction, view.up), nu), nu, vec3f(0.0));
+    }
+    if GROUND {
+        // Places beyond the tile's edge lose what those at the edge do.
+        let within = clamp(pixel, tile.origin_px, tile.origin_px + tile.size_px - 1u) - tile.origin_px;
+        let before = lit_ground[within.y * tile.size_px.x + within.x];
+        clear.seen -= select(before.rgb, vec3f(0.0), before.w >= 0.0 || (STAGE == 2u && clear.even == 2.0));
+        clear.seen = max(clear.seen, vec3f(0.0));
     }
     var even = clear.even;
     if even == 0.0 {

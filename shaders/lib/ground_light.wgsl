@@ -1,5 +1,5 @@
 // Whether the sun reaches a place, past what stands on the ground. Whoever imports from here binds what `lib/ground.wgsl`
-// names, and then this.
+// names, and this.
 import package::lib::ground_cast::cast_ground;
 import package::lib::ground_shadow::{GroundShadow, lifted, map_place};
 
@@ -8,8 +8,8 @@ override SHADOW: u32 = 1u;
 // 0: the nearest texel; 1: between four; 2: a bell over sixteen.
 override FILTER: u32 = 2u;
 
-@group(0) @binding(3) var<uniform> shadow: GroundShadow;
-@group(0) @binding(4) var<storage, read> shadow_map: array<u32>;
+@group(0) @binding(1) var<uniform> shadow: GroundShadow;
+@group(0) @binding(2) var<storage, read> shadow_map: array<u32>;
 
 // 1 where the light passes over the texel to that depth, else 0.
 fn is_lit(texel: vec2i, depth: f32) -> f32 {

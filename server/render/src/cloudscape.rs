@@ -167,20 +167,33 @@ impl Cloudscape {
 pub(crate) struct CloudLight<'a> {
     pub(crate) stand: Standpoint,
     pub(crate) view: &'a Part,
+    /// True where there are clouds.
+    pub(crate) clouded: bool,
+    /// True where shafts tell which air they keep it from.
+    pub(crate) shafted: bool,
 }
 
 impl<'a> CloudLight<'a> {
     /// The sun, or at night the moon.
-    pub(crate) fn new(stand: &Standpoint, night: &Night, lights: &'a Lights) -> Self {
+    pub(crate) fn new(
+        stand: &Standpoint,
+        night: &Night,
+        lights: &'a Lights,
+        (clouded, shafted): (bool, bool),
+    ) -> Self {
         let by_moon = night.moon.filter(|moon| moon.counts > 0.0 && stand.is_night());
         by_moon.zip(lights.moon_view()).map_or(
             Self {
                 stand: *stand,
                 view: lights.view(false),
+                clouded,
+                shafted,
             },
             |(moon, view)| Self {
                 stand: moon.stand(stand),
                 view,
+                clouded,
+                shafted,
             },
         )
     }
@@ -283,7 +296,10 @@ impl CloudPasses {
     ) -> Cloudscape {
         let scene = sky.scene;
         let clouds = Part::new(&sky.uniform(fineness(quality)));
-        let shade = sky.shade(&light.stand, scene.camera.position_m);
+        let mut shade = sky.shade(&light.stand, scene.camera.position_m);
+        if light.shafted {
+            shade.direct_left = 1.0;
+        }
         let base_m = shade.base_m;
         let shade = Part::new(&shade);
         let reads = (&*tables.transmittance, &tables.multi_scattering.source);

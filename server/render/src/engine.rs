@@ -8,7 +8,7 @@ use crate::{
     cpu::airglow::{NightLight, night_light},
     error::Error,
     gpu::Gpu,
-    groundscape::GroundPasses,
+    groundscape::{GroundPasses, shafts},
     kernel::Recorder,
     lens::Lens,
     lights::Lights,
@@ -177,7 +177,9 @@ impl Engine {
                     out: night.stars,
                 }
             });
-            let light = CloudLight::new(&tables.stand, &night, &lights);
+            let clouded = cloud_sky.is_some();
+            let shafted = shafts(scene, clouded, order.quality).is_some();
+            let light = CloudLight::new(&tables.stand, &night, &lights, (clouded, shafted));
             let moon_stand = night
                 .moon
                 .filter(|moon| moon.counts > 0.0)

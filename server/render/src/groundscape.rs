@@ -13,18 +13,20 @@ use crate::{
         ground_shadow::{GroundShadow, ShadowMap},
         ground_sky::GroundSky,
         ground_view::{GroundView, Looks},
+        shafts::Shafts as ShaftsPass,
     },
     prepared::Tables,
     uniforms::{
         Part, Standpoint,
-        ground::{GroundShadowUniform, StandUniform},
+        clouds::CloudFrameUniform,
+        ground::{GroundShadowUniform, ShaftsUniform, StandUniform},
         narrow, narrow3,
     },
 };
-use glam::{DVec3, Vec3};
+use glam::DVec3;
 use std::sync::Arc;
 use welkin_scene::{
-    Method, Quality, Scene,
+    Method, Quality, Scene, Shafts,
     assets::SceneAssets,
     terrain::{Shadow, ShadowFilter},
 };
@@ -36,12 +38,37 @@ pub(crate) struct GroundPasses {
     sky: GroundSky,
 }
 
+/// Side of the map by which the air is shaded where surfaces are by rays.
+const AIR_MAP_PX: u32 = 2048;
+
+/// How shafts are looked for. Clouds alone draw none into a preview, whose air gets what they leave on average.
+pub(crate) fn shafts(scene: &Scene, clouded: bool, quality: Quality) -> Option<ShaftsUniform> {
+    let Some(Shafts::Exact(exact)) = scene.shafts else {
+        return None;
+    };
+    let casts = scene
+        .terrain
+        .as_ref()
+        .is_some_and(|terrain| terrain.shadow().is_some());
+    match quality {
+        Quality::Final if casts || clouded => Some(ShaftsUniform {
+            grain: 2,
+            steps: exact.steps,
+        }),
+        Quality::Preview if casts => Some(ShaftsUniform {
+            grain: 4,
+            steps: (exact.steps / 3).max(8),
+        }),
+        Quality::Final | Quality::Preview => None,
+    }
+}
+
 /// How the ground hides its light.
 pub(crate) enum Shades {
     None,
     Map(Arc<ShadowMap>, ShadowFilter),
-    /// By rays; the map's uniform tells which way.
-    Rays(Part),
+    /// On surfaces by rays, in the air by a map.
+    Rays(Arc<ShadowMap>),
 }
 
 impl Shades {
@@ -64,8 +91,7 @@ impl Shades {
                 Part::new(&GroundShadowUniform::default()).upload(gpu, "shadow"),
                 unused(),
             ),
-            Self::Map(map, _) => (map.uniform.upload(gpu, "shadow"), map.texels.clone()),
-            Self::Rays(uniform) => (uniform.upload(gpu, "shadow"), unused()),
+            Self::Map(map, _) | Self::Rays(map) => (map.uniform.upload(gpu, "shadow"), map.texels.clone()),
         }
     }
 
@@ -73,7 +99,7 @@ impl Shades {
         match self {
             Self::None => Fingerprint::of("no shadow"),
             Self::Map(map, filter) => Fingerprint::of((map.made_from, filter)),
-            Self::Rays(uniform) => Fingerprint::of(("rays", uniform)),
+            Self::Rays(map) => Fingerprint::of(("rays", map.made_from)),
         }
     }
 }
@@ -85,18 +111,24 @@ pub(crate) struct Groundscape {
     pub(crate) skin: Part,
     pub(crate) stand: Part,
     pub(crate) shadow: Shades,
+    /// How shafts are looked for, if they are.
+    shafts: Option<ShaftsUniform>,
     /// True where the shadow is that of the moon.
     pub(crate) by_moon: bool,
     pub(crate) harmonics: Arc<wgpu::Buffer>,
     pub(crate) aerial: Option<Arc<AerialVolumes>>,
     pub(crate) moon_observer: Option<Part>,
-    pub(crate) place_m: Vec3,
+    /// Where the observer stands in the scene, and the light that casts shadows.
+    pub(crate) frame: CloudFrameUniform,
     made_from: Fingerprint,
 }
 
 impl Groundscape {
     /// True where it, or who looks, may stand above clouds that begin at that altitude: then some are before it.
     pub(crate) fn may_hide(&self, base_m: f32, stand: &Standpoint) -> bool {
+        if self.terrains.shape.code == 0.0 {
+            return false;
+        }
         let top_m = self.terrains.shape.most_m.z.max(stand.altitude_m);
         top_m > f64::from(base_m)
     }
@@ -115,7 +147,7 @@ impl GroundPasses {
         }
     }
 
-    /// None where a scene has no ground but the sphere. `light` is the one that casts shadows, `moon` where the moon stands
+    /// None where a scene has neither ground but the sphere nor shafts. `light` is the one that casts shadows, `moon` where the moon stands
     /// if its light counts.
     pub(crate) fn scape(
         &mut self,
@@ -126,9 +158,11 @@ impl GroundPasses {
         (light, moon): (&CloudLight<'_>, Option<Standpoint>),
         quality: Quality,
     ) -> Result<Option<Groundscape>, Error> {
-        let Some(terrains) = self.shapes.of(recorder.gpu, scene, assets)? else {
+        let shafts = shafts(scene, light.clouded, quality);
+        if scene.terrain.is_none() && shafts.is_none() {
             return Ok(None);
-        };
+        }
+        let terrains = self.shapes.of(recorder.gpu, scene, assets)?;
         let by_moon = light.stand.sun != tables.stand.sun;
         let kind = scene.terrain.as_ref().and_then(welkin_scene::Terrain::shadow);
         let towards = light.stand.sun;
@@ -138,9 +172,7 @@ impl GroundPasses {
                 self.shadow.run(recorder, &terrains, towards, map.size_px),
                 map.filter,
             ),
-            Some(Shadow::Rays {}) => Shades::Rays(Part::new(&crate::passes::ground_shadow::shadow_uniform(
-                &terrains, towards, 2,
-            ))),
+            Some(Shadow::Rays {}) => Shades::Rays(self.shadow.run(recorder, &terrains, towards, AIR_MAP_PX)),
         };
         let reads = (&*tables.transmittance, &tables.multi_scattering.source);
         let over = |stand: &Standpoint| terrains.stand(stand.sun);
@@ -161,7 +193,7 @@ impl GroundPasses {
             (&ground, &stand, &skin),
             shadow.fingerprint(),
             volumes.as_ref().map(|v| v.made_from),
-            format!("{lights:?}"),
+            format!("{lights:?} {shafts:?} {towards}"),
         ));
         Ok(Some(Groundscape {
             terrains,
@@ -169,11 +201,15 @@ impl GroundPasses {
             skin,
             stand,
             shadow,
+            shafts,
             by_moon,
             harmonics,
             aerial: volumes,
             moon_observer: moon.map(|stand| Part::new(&stand.observer(tables.plan.pixel_steps()))),
-            place_m: narrow3(scene.camera.position_m),
+            frame: CloudFrameUniform {
+                place_m: narrow3(scene.camera.position_m),
+                light: towards.as_vec3(),
+            },
             made_from,
         }))
     }
@@ -182,6 +218,7 @@ impl GroundPasses {
 /// The passes of the ground that are run for every tile.
 pub(crate) struct GroundTiles {
     view: GroundView,
+    shafts: ShaftsPass,
     light: GroundLight,
 }
 
@@ -189,6 +226,7 @@ impl GroundTiles {
     pub(crate) const fn new() -> Self {
         Self {
             view: GroundView::new(),
+            shafts: ShaftsPass::new(),
             light: GroundLight::new(),
         }
     }
@@ -202,6 +240,11 @@ impl GroundTiles {
         looks: Looks<'_>,
     ) -> wgpu::Buffer {
         let seen = self.view.run(recorder, scape, looks);
-        self.light.run(recorder, scape, inputs, looks, &seen)
+        let lost = scape.shafts.map(|settings| {
+            let lost = self.shafts.run(recorder, scape, inputs, (looks, &seen), settings);
+            (lost, settings)
+        });
+        self.light
+            .run(recorder, scape, inputs, (looks, &seen), lost.as_ref())
     }
 }

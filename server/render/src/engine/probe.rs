@@ -5,6 +5,7 @@ use crate::{
     cloud_sky::CloudSky,
     cloudscape::CloudLight,
     error::Error,
+    groundscape::shafts,
     kernel::Recorder,
     lights::Lights,
     night::Night,
@@ -36,7 +37,9 @@ impl Engine {
             let face = || moon_face(&self.moon_face, gpu);
             let direct = Direct::new(scene, &tables.stand, &night);
             let lights = Lights::new(scene, &tables.stand, night, &direct, glow, face, None);
-            let light = CloudLight::new(&tables.stand, &night, &lights);
+            let clouded = cloud_sky.is_some();
+            let shafted = shafts(scene, clouded, Quality::Final).is_some();
+            let light = CloudLight::new(&tables.stand, &night, &lights, (clouded, shafted));
             let moonlit = night.moon.filter(|moon| moon.counts > 0.0);
             let ground = self.ground.scape(
                 &mut recorder,

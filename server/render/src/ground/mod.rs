@@ -55,26 +55,26 @@ impl Shapes {
         }
     }
 
-    /// None where the scene has no terrain.
-    pub(crate) fn of(
-        &mut self,
-        gpu: &Gpu,
-        scene: &Scene,
-        assets: &SceneAssets,
-    ) -> Result<Option<Terrains>, Error> {
+    /// Of a scene without terrain, nothing but the sphere.
+    pub(crate) fn of(&mut self, gpu: &Gpu, scene: &Scene, assets: &SceneAssets) -> Result<Terrains, Error> {
         let radius_m = scene.planet.radius_m;
-        scene
-            .terrain
-            .as_ref()
-            .map(|terrain| match terrain {
-                Terrain::Heightfield(field) => {
-                    let frame = Frame::new(radius_m, field.centre_m, field.azimuth_deg);
-                    let shape = self.heightfield(gpu, field, assets, &frame, radius_m)?;
-                    Ok(Terrains { shape, frame })
-                }
-                Terrain::Mesh(mesh) => Err(Error::Asset(mesh.name.clone())),
-            })
-            .transpose()
+        match &scene.terrain {
+            None => {
+                let made_from = Fingerprint::of(("sphere", radius_m.to_bits()));
+                Ok(Terrains {
+                    shape: self
+                        .shapes
+                        .get_or(made_from, || Shape::none(gpu, radius_m, made_from)),
+                    frame: Frame::new(radius_m, [0.0; 2], 0.0),
+                })
+            }
+            Some(Terrain::Heightfield(field)) => {
+                let frame = Frame::new(radius_m, field.centre_m, field.azimuth_deg);
+                let shape = self.heightfield(gpu, field, assets, &frame, radius_m)?;
+                Ok(Terrains { shape, frame })
+            }
+            Some(Terrain::Mesh(mesh)) => Err(Error::Asset(mesh.name.clone())),
+        }
     }
 
     fn heightfield(
@@ -126,6 +126,22 @@ impl Shapes {
 }
 
 impl Shape {
+    fn none(gpu: &Gpu, radius_m: f64, made_from: Fingerprint) -> Self {
+        let nothing = || gpu.buffer("nothing", 16, wgpu::BufferUsages::STORAGE);
+        Self {
+            words: nothing(),
+            finder: nothing(),
+            made_from,
+            code: 0.0,
+            bare: GroundUniform {
+                radius_m: narrow(radius_m),
+                ..GroundUniform::default()
+            },
+            least_m: DVec3::ZERO,
+            most_m: DVec3::ZERO,
+        }
+    }
+
     fn of_field(gpu: &Gpu, field: &Field, radius_m: f64, made_from: Fingerprint) -> Self {
         let storage = |label, words: &[f32]| {
             gpu.filled(label, bytemuck::cast_slice(words), wgpu::BufferUsages::STORAGE)

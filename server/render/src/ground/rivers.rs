@@ -45,7 +45,7 @@ impl PartialOrd for Shore {
 /// Grid cells that gather water before it cuts.
 const SPRING_CELLS: f32 = 0.0;
 /// Share of the difference from its neighbours that creeps away from a place in a step.
-const CREEP: f32 = 0.12;
+const CREEP: f32 = 0.04;
 /// Rise of the water's level from cell to cell, so that it runs to where it flows over.
 const LEVEL: f32 = 1e-3;
 

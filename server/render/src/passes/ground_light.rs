@@ -7,10 +7,7 @@ use crate::{
     kernel::{Bind, Recorder, Variants},
     method::Plan,
     shader,
-    uniforms::{
-        Part,
-        clouds::{CloudFrameUniform, ShadeUniform},
-    },
+    uniforms::{Part, clouds::ShadeUniform, ground::ShaftsUniform},
 };
 
 pub(crate) struct GroundLight {
@@ -50,8 +47,8 @@ impl GroundLight {
         recorder: &mut Recorder<'_>,
         scape: &Groundscape,
         inputs: LightInputs<'_>,
-        looks: Looks<'_>,
-        seen: &wgpu::Buffer,
+        (looks, seen): (Looks<'_>, &wgpu::Buffer),
+        lost: Option<&(wgpu::Buffer, ShaftsUniform)>,
     ) -> wgpu::Buffer {
         let gpu = recorder.gpu;
         let lit = gpu.buffer(
@@ -70,22 +67,16 @@ impl GroundLight {
             .as_ref()
             .unwrap_or(inputs.observer)
             .upload(gpu, "moon observer");
-        let (shade, cloud_frame) = inputs.clouds.map_or_else(
-            || {
-                (
-                    Part::new(&ShadeUniform::default()),
-                    CloudFrameUniform {
-                        place_m: scape.place_m,
-                        ..CloudFrameUniform::default()
-                    },
-                )
-            },
-            |scape| (scape.shade.clone(), scape.frame()),
-        );
+        let shade = inputs
+            .clouds
+            .map_or_else(|| Part::new(&ShadeUniform::default()), |c| c.shade.clone());
         let (shade, cloud_frame) = (
             shade.upload(gpu, "shade"),
-            Part::new(&cloud_frame).upload(gpu, "clouds"),
+            Part::new(&scape.frame).upload(gpu, "clouds"),
         );
+        let none = ShaftsUniform { grain: 1, steps: 0 };
+        let settings = Part::new(&lost.map_or(none, |(_, settings)| *settings)).upload(gpu, "shafts");
+        let unused = gpu.buffer("unused", 16, wgpu::BufferUsages::STORAGE);
         let shade_maps = inputs
             .clouds
             .map_or(&inputs.source.view, |scape| &scape.shadow.view);
@@ -123,6 +114,8 @@ impl GroundLight {
             Bind::Buffer(seen),
             Bind::Buffer(&scape.harmonics),
             Bind::Buffer(&lit),
+            Bind::Buffer(&settings),
+            Bind::Buffer(lost.map_or(&unused, |(lost, _)| lost)),
         ];
         let flag = |on: bool| f64::from(u8::from(on));
         let mut constants = vec![
@@ -130,6 +123,7 @@ impl GroundLight {
             ("AIRGLOW", flag(inputs.plan.airglow)),
             ("MOONLIGHT", flag(inputs.moon_view.is_some())),
             ("MOON_HIDDEN", flag(scape.by_moon)),
+            ("SHAFTS", flag(lost.is_some())),
             ("CLOUDS", flag(inputs.clouds.is_some())),
             ("DOME", flag(inputs.clouds.is_some() && !inputs.followed)),
         ];

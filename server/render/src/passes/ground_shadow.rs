@@ -88,10 +88,10 @@ impl GroundShadow {
             let (held, ground) = (uniform.upload(gpu, "shadow"), own.upload(gpu, "ground"));
             let binds = [
                 Bind::Buffer(&ground),
-                Bind::Buffer(&terrains.shape.words),
-                Bind::Buffer(&terrains.shape.finder),
                 Bind::Buffer(&held),
                 Bind::Buffer(&texels),
+                Bind::Buffer(&terrains.shape.words),
+                Bind::Buffer(&terrains.shape.finder),
             ];
             let kernel = self.kernels.get(gpu, &[("SHAPE", terrains.shape.code)]);
             recorder.dispatch(kernel, &binds, [words, size_px, 1]);

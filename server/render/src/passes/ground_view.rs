@@ -97,10 +97,10 @@ impl GroundView {
         let shadow = scape.shadow.upload(gpu);
         let binds = [
             Bind::Buffer(&ground),
-            Bind::Buffer(&scape.terrains.shape.words),
-            Bind::Buffer(&scape.terrains.shape.finder),
             Bind::Buffer(&shadow.0),
             Bind::Buffer(&shadow.1),
+            Bind::Buffer(&scape.terrains.shape.words),
+            Bind::Buffer(&scape.terrains.shape.finder),
             Bind::Buffer(&camera),
             Bind::Buffer(&tile),
             Bind::Buffer(&stand),

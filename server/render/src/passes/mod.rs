@@ -19,6 +19,7 @@ pub(crate) mod ground_sky;
 pub(crate) mod ground_view;
 pub(crate) mod multi_scattering;
 pub(crate) mod probe;
+pub(crate) mod shafts;
 pub(crate) mod sky;
 pub(crate) mod sky_view;
 pub(crate) mod stars;

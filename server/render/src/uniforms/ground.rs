@@ -65,3 +65,10 @@ pub(crate) struct StandUniform {
 pub(crate) struct SkyPartUniform {
     pub(crate) first: u32,
 }
+
+/// `Shafts` of `shafts.wgsl`.
+#[derive(Clone, Copy, Debug, ShaderType)]
+pub(crate) struct ShaftsUniform {
+    pub(crate) grain: u32,
+    pub(crate) steps: u32,
+}

@@ -119,8 +119,8 @@ fn rays_meet_heightfields_where_patches_in_f64_are() {
         let (heights, peaks) = (storage(&field.heights_m), storage(&field.peaks_m));
         let binds = [
             (0, ground.as_entire_binding()),
-            (1, heights.as_entire_binding()),
-            (2, peaks.as_entire_binding()),
+            (3, heights.as_entire_binding()),
+            (4, peaks.as_entire_binding()),
         ];
         let statements = "x.x = cast_heightfield(a.xyz, b.xyz, 0.0, 1e12);";
         let found = evaluate(gpu, &shader::GROUND_SHADOW, statements, &rows, &binds);

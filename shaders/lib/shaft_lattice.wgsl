@@ -1,0 +1,18 @@
+// Shafts are found at a lattice of pixels, and between its places by those around that look as far.
+
+// Places that a tile has; the last ones lie on its far edges.
+fn lattice_count(size_px: vec2u, grain: u32) -> vec2u {
+    return (size_px + grain - 2u) / grain + 1u;
+}
+
+// How much a place of the lattice counts for a pixel that lies that many places beside it: a tent over three.
+fn lattice_weight(away: vec2f) -> f32 {
+    let side = max(1.5 - abs(away), vec2f(0.0));
+    return side.x * side.y;
+}
+
+// How much it counts for a ray that ends elsewhere: less than a tenth where one ends half as far away again.
+fn depth_weight(end_m: f32, other_m: f32) -> f32 {
+    let apart = log2(max(end_m, 1.0) / max(other_m, 1.0));
+    return 1.0 / (1.0 + 30.0 * apart * apart);
+}
