@@ -25,6 +25,8 @@ pub(super) fn look(gpu: &Gpu, scene: &Scene, assets: &SceneAssets, size_px: UVec
     let light = CloudLight {
         stand: tables.stand,
         view: &view,
+        clouded: true,
+        shafted: false,
     };
     let mut recorder = Recorder::new(gpu);
     let scape = passes.scape(&mut recorder, &tables, (&sky, textures), light, Quality::Final);
