@@ -7,6 +7,8 @@ import package::lib::ground_cast::{SHAPE, cast_ground};
 import package::lib::ground_light::sun_on_surface;
 import package::lib::ground_skin::{Skin, skin_albedo, skin_waves};
 import package::lib::heightfield::rise_at;
+import package::lib::mesh::mesh_hit;
+import package::lib::mesh_skin::{materials, mesh_surface};
 import package::lib::seen_ground::{PackedGround, SeenGround, pack_ground};
 
 // As `sight_at` numbers it.
@@ -51,6 +53,13 @@ fn field_at(p: vec3f, pixel_m: f32, distance_m: f32) -> SeenGround {
     return SeenGround(distance_m, from_ground_frame(normal), skin.diffuse * albedo, skin.ambient * albedo, skin.specular, skin.shininess, lit, 1.0);
 }
 
+fn mesh_at(p: vec3f, d: vec3f, pixel_m: f32, distance_m: f32) -> SeenGround {
+    let surface = mesh_surface(mesh_hit, d, pixel_m);
+    let material = materials[surface.material];
+    let lit = sun_on_surface(p, surface.flat_normal, pixel_m);
+    return SeenGround(distance_m, from_ground_frame(surface.normal), material.diffuse * surface.albedo, material.ambient * surface.albedo, material.specular, material.shininess, lit, 1.0);
+}
+
 fn look(direction: vec3f) -> SeenGround {
     let d = to_ground_frame(direction);
     let sphere_m = distance_to_sphere(ground.radius_m, stand.altitude_m, dot(direction, stand.up));
@@ -59,7 +68,9 @@ fn look(direction: vec3f) -> SeenGround {
     var found: SeenGround;
     found.distance_m = -1.0;
     let pixel_m = camera.pixel_angle * max(t, sphere_m);
-    if t >= 0.0 {
+    if t >= 0.0 && SHAPE == 2u {
+        found = mesh_at(ground.place_m + t * d, d, pixel_m, t);
+    } else if t >= 0.0 {
         found = field_at(ground.place_m + t * d, pixel_m, t);
     } else if sphere_m >= 0.0 {
         // Of the sphere only what lies in the shadow; the rest is the sky's.

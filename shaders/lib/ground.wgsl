@@ -27,8 +27,9 @@ struct Ground {
 @group(0) @binding(0) var<uniform> ground: Ground;
 // Heights in metres, rows from the south and each from the west; or the mesh's triangles.
 @group(0) @binding(3) var<storage, read> shape: array<f32>;
-// Greatest heights of 2×2 patches, then of 4×4, and so on, level after level; or the nodes of the mesh's tree.
-@group(0) @binding(4) var<storage, read> finder: array<f32>;
+// Greatest heights of 2×2 patches, then of 4×4, and so on, level after level; or the nodes of the mesh's tree. As bits: not
+// every device keeps whole numbers in floats.
+@group(0) @binding(4) var<storage, read> finder: array<u32>;
 
 fn to_ground_frame(v: vec3f) -> vec3f {
     return vec3f(dot(v, ground.east), dot(v, ground.north), dot(v, ground.up));

@@ -133,7 +133,7 @@ fn cast_heightfield(p: vec3f, d: vec3f, from_m: f32, to_m: f32) -> f32 {
             corners = patch_corners(vec2u(cell));
             top = max(max(corners.x, corners.y), max(corners.z, corners.w));
         } else {
-            top = finder[level.first + u32(node.y) * node_count(level.index).x + u32(node.x)];
+            top = bitcast<f32>(finder[level.first + u32(node.y) * node_count(level.index).x + u32(node.x)]);
         }
         if lowest <= top && level.index > 0u {
             level = finer(level);

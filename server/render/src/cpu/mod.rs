@@ -9,6 +9,8 @@ pub(crate) mod geometry;
 #[cfg(test)]
 pub(crate) mod heightfield;
 #[cfg(test)]
+pub(crate) mod mesh;
+#[cfg(test)]
 pub(crate) mod moon;
 #[cfg(test)]
 pub(crate) mod noise;

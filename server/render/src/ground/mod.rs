@@ -2,6 +2,7 @@
 
 mod field;
 mod frame;
+mod mesh;
 mod mountains;
 mod rivers;
 mod skin;
@@ -16,7 +17,8 @@ use crate::{
     uniforms::{Part, Standpoint, ground::GroundUniform, narrow},
 };
 use glam::{DVec2, DVec3, USizeVec2, UVec2};
-use mountains::Range;
+pub(crate) use mesh::Solid;
+pub(crate) use mountains::Range;
 pub(crate) use skin::skin;
 use std::sync::Arc;
 use welkin_scene::{Scene, Terrain, assets::SceneAssets, terrain::Heightfield};
@@ -25,6 +27,8 @@ use welkin_scene::{Scene, Terrain, assets::SceneAssets, terrain::Heightfield};
 pub(crate) struct Shape {
     pub(crate) words: wgpu::Buffer,
     pub(crate) finder: wgpu::Buffer,
+    /// Attributes, materials and pictures of a mesh.
+    pub(crate) cover: [wgpu::Buffer; 3],
     pub(crate) made_from: Fingerprint,
     /// As `lib/ground_cast.wgsl` numbers it.
     pub(crate) code: f64,
@@ -73,7 +77,28 @@ impl Shapes {
                 let shape = self.heightfield(gpu, field, assets, &frame, radius_m)?;
                 Ok(Terrains { shape, frame })
             }
-            Some(Terrain::Mesh(mesh)) => Err(Error::Asset(mesh.name.clone())),
+            Some(Terrain::Mesh(mesh)) => {
+                let found = assets.meshes.get(&mesh.name);
+                let model = found.ok_or_else(|| Error::Asset(mesh.name.clone()))?;
+                let placed = format!(
+                    "{:?} {:?} {radius_m}",
+                    mesh.axes(),
+                    (mesh.position_m[2], mesh.phong)
+                );
+                let made_from = Fingerprint::of(("mesh", model.digest, placed));
+                let make = || {
+                    Ok::<_, Error>(Shape::of_mesh(
+                        gpu,
+                        &Solid::new(model, mesh, radius_m)?,
+                        radius_m,
+                        made_from,
+                    ))
+                };
+                Ok(Terrains {
+                    shape: self.shapes.try_get_or(made_from, make)?,
+                    frame: Solid::frame(mesh, radius_m),
+                })
+            }
         }
     }
 
@@ -131,6 +156,7 @@ impl Shape {
         Self {
             words: nothing(),
             finder: nothing(),
+            cover: uncovered(gpu),
             made_from,
             code: 0.0,
             bare: GroundUniform {
@@ -151,6 +177,7 @@ impl Shape {
         Self {
             words: storage("heights", &field.heights_m),
             finder: storage("peaks", &field.peaks_m),
+            cover: uncovered(gpu),
             made_from,
             code: 1.0,
             bare: GroundUniform {
@@ -166,6 +193,42 @@ impl Shape {
             },
             least_m: (-half).extend(f64::from(field.lowest_m) - fall_m),
             most_m: half.extend(f64::from(field.highest_m)),
+        }
+    }
+}
+
+/// What stands where a mesh's cover is bound, if there is none.
+fn uncovered(gpu: &Gpu) -> [wgpu::Buffer; 3] {
+    ["attributes", "materials", "pictures"].map(|label| gpu.buffer(label, 48, wgpu::BufferUsages::STORAGE))
+}
+
+impl Shape {
+    fn of_mesh(gpu: &Gpu, solid: &Solid, radius_m: f64, made_from: Fingerprint) -> Self {
+        let storage = |label, words: &[u32]| {
+            gpu.filled(label, bytemuck::cast_slice(words), wgpu::BufferUsages::STORAGE)
+        };
+        let size = solid.most_m - solid.least_m;
+        Self {
+            words: storage("triangles", bytemuck::cast_slice(&solid.triangles)),
+            finder: storage("nodes", &solid.nodes),
+            cover: [
+                storage("attributes", &solid.attributes),
+                storage("materials", &solid.materials),
+                storage("pictures", &solid.pictures),
+            ],
+            made_from,
+            code: 2.0,
+            bare: GroundUniform {
+                radius_m: narrow(radius_m),
+                highest_m: narrow(solid.most_m.z),
+                lowest_m: narrow(solid.least_m.z),
+                corner_m: solid.least_m.truncate().as_vec2(),
+                cell_m: size.truncate().as_vec2(),
+                cells: UVec2::ONE,
+                ..GroundUniform::default()
+            },
+            least_m: solid.least_m,
+            most_m: solid.most_m,
         }
     }
 }

@@ -107,6 +107,9 @@ impl GroundView {
             Bind::Buffer(&skin),
             Bind::Buffer(&directions),
             Bind::Buffer(&seen),
+            Bind::Buffer(&scape.terrains.shape.cover[0]),
+            Bind::Buffer(&scape.terrains.shape.cover[1]),
+            Bind::Buffer(&scape.terrains.shape.cover[2]),
         ];
         let mut constants = vec![("SHAPE", scape.terrains.shape.code)];
         constants.extend(scape.shadow.constants());

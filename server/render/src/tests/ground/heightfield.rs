@@ -1,5 +1,6 @@
 //! Rays against heightfields: the shader against patches in f64, one after the other.
 
+use super::{RADIUS_M, compare, random, random3, rows};
 use crate::{
     cpu::heightfield::Caster,
     ground::{Field, Lift},
@@ -8,17 +9,8 @@ use crate::{
     uniforms::{Part, ground::GroundUniform},
 };
 use glam::{DVec2, DVec3, USizeVec2};
-use rand_xoshiro::{
-    Xoshiro256PlusPlus,
-    rand_core::{RngCore, SeedableRng},
-};
+use rand_xoshiro::{Xoshiro256PlusPlus, rand_core::SeedableRng};
 use wgpu::BufferUsages;
-
-const RADIUS_M: f64 = 6.36e6;
-
-fn random(source: &mut Xoshiro256PlusPlus) -> f64 {
-    source.next_u64() as f64 / u64::MAX as f64
-}
 
 /// Hills of several sizes, spikes and plains.
 fn field(size: USizeVec2, extent_m: DVec2, seed: u64) -> Field {
@@ -66,7 +58,7 @@ fn rays(field: &Field, count: usize, seed: u64) -> Vec<(DVec3, DVec3)> {
     let mut source = Xoshiro256PlusPlus::seed_from_u64(seed);
     let extent = field.extent_m.extend(f64::from(field.highest_m));
     let mut place = |wide: f64, low: f64, high: f64| {
-        let at = DVec3::new(random(&mut source), random(&mut source), random(&mut source));
+        let at = random3(&mut source);
         DVec3::new(
             (at.x - 0.5) * wide,
             (at.y - 0.5) * wide,
@@ -106,13 +98,6 @@ fn rays_meet_heightfields_where_patches_in_f64_are() {
             radius_m: RADIUS_M,
         };
         let rays = rays(&field, 1500, 11);
-        let rows: Vec<[f32; 8]> = rays
-            .iter()
-            .map(|(p, d)| {
-                let (p, d) = (p.as_vec3(), d.as_vec3());
-                [p.x, p.y, p.z, 0.0, d.x, d.y, d.z, 0.0]
-            })
-            .collect();
         let gpu = &engine.gpu;
         let ground = Part::new(&uniform(&field)).upload(gpu, "ground");
         let storage = |words: &[f32]| gpu.filled("words", bytemuck::cast_slice(words), BufferUsages::STORAGE);
@@ -123,42 +108,15 @@ fn rays_meet_heightfields_where_patches_in_f64_are() {
             (4, peaks.as_entire_binding()),
         ];
         let statements = "x.x = cast_heightfield(a.xyz, b.xyz, 0.0, 1e12);";
-        let found = evaluate(gpu, &shader::GROUND_SHADOW, statements, &rows, &binds);
-        for ((p, d), found) in rays.into_iter().zip(found) {
-            all += 1;
-            let found = Some(f64::from(found[0])).filter(|t| *t >= 0.0);
-            // A ray stands for those beside it by what f32 makes of its start and its direction: where these disagree, it
-            // grazes, and no answer is the right one.
-            let beside =
-                |side: DVec3| caster.cast(p + side * 2e-7 * p.length(), (d + side * 2e-7).normalize());
-            let expected = caster.cast(p, d);
-            let around = [
-                DVec3::X,
-                DVec3::NEG_X,
-                DVec3::Y,
-                DVec3::NEG_Y,
-                DVec3::Z,
-                DVec3::NEG_Z,
-            ]
-            .map(beside);
-            let close = |t: Option<f64>| match (t, expected) {
-                (Some(t), Some(e)) => (t - e).abs() <= 0.5e-4 * e,
-                (None, None) => true,
-                _ => false,
-            };
-            if !around.into_iter().all(close) {
-                loose += 1;
-                continue;
-            }
-            met += usize::from(expected.is_some());
-            let agree = match (found, expected) {
-                // What the issue asks for.
-                (Some(t), Some(e)) => (t - e).abs() <= 1e-4 * e,
-                (None, None) => true,
-                _ => false,
-            };
-            assert!(agree, "{size} {p} {d}: {found:?} {expected:?}");
-        }
+        let found = evaluate(gpu, &shader::GROUND_SHADOW, statements, &rows(&rays), &binds);
+        let found: Vec<_> = found
+            .iter()
+            .map(|x| Some(f64::from(x[0])).filter(|t| *t >= 0.0))
+            .collect();
+        let (hits, edges) = compare(&rays, &found, |p, d| caster.cast(p, d));
+        met += hits;
+        loose += edges;
+        all += rays.len();
     }
     // The test would be empty if most rays missed or grazed.
     assert!(
