@@ -193,15 +193,12 @@ fn radiance_towards(direction: vec3f, found: SeenGround) -> vec3f {
 // What a ray through a pixel of the tile loses to shafts.
 fn lost_at(pixel: vec2u, end_m: f32) -> vec3f {
     let count = lattice_count(tile.size_px, settings.grain);
-    let place = vec2f(pixel) / f32(settings.grain);
+    let place = vec2f(pixel) / f32(settings.grain) + 1.0;
     let nearest = vec2i(round(place));
     var sum = vec3f(0.0);
     var weights = 0.0;
     for (var k = 0; k < 9; k++) {
         let at = nearest + vec2i(k % 3, k / 3) - 1;
-        if any(at < vec2i(0)) || any(at >= vec2i(count)) {
-            continue;
-        }
         let there = lost[u32(at.y) * count.x + u32(at.x)];
         let weight = lattice_weight(place - vec2f(at)) * depth_weight(end_m, there.w);
         sum += weight * there.rgb;

@@ -170,11 +170,16 @@ fn shafts(@builtin(global_invocation_id) id: vec3u) {
     if any(id.xy >= count) {
         return;
     }
-    let pixel = min(id.xy * settings.grain, tile.size_px - 1u);
-    let sight = sight_at(camera, PROJECTION, vec2f(tile.origin_px + pixel) + 0.5);
+    let grain = i32(settings.grain);
+    let pixel = (vec2i(id.xy) - 1) * grain;
+    let at = vec2i(tile.origin_px) + pixel;
+    let sight = sight_at(camera, PROJECTION, vec2f(at) + 0.5);
     let i = id.y * count.x + id.x;
     if sight.seen {
-        look(i, sight.direction, seen[pixel.y * tile.size_px.x + pixel.x].distance_m, jitter_of(vec2f(tile.origin_px / settings.grain + id.xy)));
+        // Beyond the tile's edge, as far as at it.
+        let within = clamp(pixel, vec2i(0), vec2i(tile.size_px) - 1);
+        let seen_m = seen[u32(within.y) * tile.size_px.x + u32(within.x)].distance_m;
+        look(i, sight.direction, seen_m, jitter_of(vec2f(at / grain)));
     } else {
         lost[i] = vec4f(0.0, 0.0, 0.0, ENDLESS_M);
     }

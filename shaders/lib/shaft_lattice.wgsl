@@ -1,8 +1,8 @@
 // Shafts are found at a lattice of pixels, and between its places by those around that look as far.
 
-// Places that a tile has; the last ones lie on its far edges.
+// Places that a tile has: one before its edges, and two beyond, so that those about each pixel are there.
 fn lattice_count(size_px: vec2u, grain: u32) -> vec2u {
-    return (size_px + grain - 2u) / grain + 1u;
+    return (size_px + grain - 1u) / grain + 3u;
 }
 
 // How much a place of the lattice counts for a pixel that lies that many places beside it: a tent over three.

@@ -15,7 +15,7 @@ pub(crate) struct Shafts {
 
 /// `lattice_count` of `lib/shaft_lattice.wgsl`.
 fn lattice_count(size_px: UVec2, grain: u32) -> UVec2 {
-    (size_px + grain - 2) / grain + 1
+    (size_px + grain - 1) / grain + 3
 }
 
 impl Shafts {
