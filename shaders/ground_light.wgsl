@@ -7,13 +7,14 @@ import package::lib::cloud_shade::{CloudShade, shade_depth, slab_transmission};
 import package::lib::geometry::{PI, altitude_after, angle_of_cosine, cosine_after, distance_to_sphere, distance_to_top};
 import package::lib::harmonics::irradiance_towards;
 import package::lib::light::{View, scattered_radiance};
-import package::lib::scattering::{March, Scattered, scatter_along};
+import package::lib::scattering::{AirRay, March, Scattered, scatter_along};
 import package::lib::seen_ground::{PackedGround, SeenGround, unpack_ground};
 import package::lib::shaft_lattice::{depth_weight, lattice_count, lattice_weight};
 import package::lib::source::cosine_of_azimuth;
 import package::lib::tables::{SkyViewRay, light_from_table, sky_view_coordinate, sun_cosine_unit, unit_to_coordinate};
 import package::lib::transmittance::transmittance_to_space;
 import package::lib::view_ray::{Observer, enter_air};
+import package::lib::water::{glitter, mean_reflectance, mirrored_direction, slope_variance};
 
 // 0: light in the air from a volume; 1: integrated along each pixel's ray, 2: with the optical depth to the sun
 // integrated in every step of it.
@@ -24,6 +25,8 @@ override AIRGLOW: bool = true;
 override MOONLIGHT: bool = false;
 override CLOUDS: bool = false;
 override SHAFTS: bool = false;
+// True where the sphere is of water.
+override WATER: bool = false;
 // True where nobody follows a ray through the clouds before the ground: none are there.
 override DOME: bool = false;
 // True where the ground hides the moon's light, not the sun's.
@@ -37,11 +40,11 @@ struct Tile {
     size_px: vec2u,
 }
 
-struct Shafts {
-    // Pixels from one place of the lattice to the next.
+struct LightSettings {
+    // Pixels from one place of the shafts' lattice to the next.
     grain: u32,
-    // Places along a ray.
-    steps: u32,
+    // Over the water.
+    wind_m_s: f32,
 }
 
 struct CloudFrame {
@@ -76,7 +79,7 @@ struct CloudFrame {
 @group(0) @binding(20) var<storage, read> sky_harmonics: array<vec4f>;
 // Radiance in R, G, B and how far away it is; where nothing stands, what the sky loses to shafts, and -1.
 @group(0) @binding(21) var<storage, read_write> lit_ground: array<vec4f>;
-@group(0) @binding(22) var<uniform> settings: Shafts;
+@group(0) @binding(22) var<uniform> settings: LightSettings;
 // Radiance in R, G, B, and how far away the ray ends; of a lattice of the tile's pixels, or of each direction.
 @group(0) @binding(23) var<storage, read> lost: array<vec4f>;
 
@@ -110,15 +113,43 @@ fn radiance_by(light: View, first: u32, lit: f32, found: SeenGround, place: Plac
     let falling = max(dot(found.normal, light.sun), 0.0);
     let straight = falling * lit * left.sun * transmittance_to_space(air, transmittance_table, linear_clamp, place.altitude_m, mu);
     // The sky by the table where the sun stands as there, and by harmonics for which way the surface faces.
-    let x = unit_to_coordinate(sun_cosine_unit(mu), textureDimensions(irradiance_table).x);
-    let level = light_from_table(textureSampleLevel(irradiance_table, linear_clamp, vec2f(x, 0.5), 0.0).rgb);
+    let level = sky_at(mu);
     let sun_below = max(mu, 0.0) * transmittance_to_space(air, transmittance_table, linear_clamp, 0.0, mu);
     let bounced = air.ground_albedo * (left.sun * sun_below + left.sky * level);
     let tilt = irradiance_share(first, found.normal, place.up);
     let sky = left.sky * level * found.open * tilt + (1.0 - found.open * 0.5 * (1.0 + dot(found.normal, place.up))) * bounced;
+    if WATER && found.water {
+        return light.sun_irradiance * water_by(light, found.diffuse, straight, left.sky * level, lit * left.sun, place, direction);
+    }
     let mirrored = reflect(direction, found.normal);
     let lobe = (found.shininess + 1.0) / (2.0 * PI) * pow(max(dot(mirrored, light.sun), 0.0), found.shininess);
     return light.sun_irradiance * ((found.diffuse * straight + found.ambient * sky) / PI + found.specular * lobe * straight);
+}
+
+const MIRROR_STEPS = 16u;
+
+// Of water: the light's glitter, the sky that the waves mirror, and what comes back out of the water of what went in.
+fn water_by(light: View, albedo: vec3f, straight: vec3f, sky: vec3f, lit: f32, place: Place, direction: vec3f) -> vec3f {
+    let variance = slope_variance(settings.wind_m_s);
+    let mu = dot(place.up, light.sun);
+    let view_cosine = max(-dot(direction, place.up), 0.0);
+    let mirrors = mean_reflectance(view_cosine, variance);
+    let sun = lit * transmittance_to_space(air, transmittance_table, linear_clamp, 0.0, mu) * glitter(place.up, -direction, light.sun, variance);
+    let towards = mirrored_direction(place.up, -direction, variance);
+    let mu_towards = dot(towards, place.up);
+    let nu = clamp(dot(towards, light.sun), -1.0, 1.0);
+    let ray = AirRay(0.0, mu_towards, mu, nu, distance_to_top(air.radius_m, air.top_m, 0.0, mu_towards));
+    let march = March(true, MULTIPLE, HAZE, false, MIRROR_STEPS, 4u, 0u);
+    let mirrored = scatter_along(air, ray, transmittance_table, source_table, linear_clamp, march);
+    let even = View(light.up, light.altitude_m, light.sun, light.mu_s, vec3f(1.0), light.sun_angular_radius, light.limb_exponent, light.disc);
+    let left = sky / max(sky_at(mu), vec3f(1e-12));
+    return sun + mirrors * left * scattered_radiance(air, even, mirrored, nu) + (1.0 - mirrors) * albedo / PI * (straight + sky);
+}
+
+// Of the whole sky on a level place, for a light of unit irradiance at that cosine.
+fn sky_at(mu: f32) -> vec3f {
+    let x = unit_to_coordinate(sun_cosine_unit(mu), textureDimensions(irradiance_table).x);
+    return light_from_table(textureSampleLevel(irradiance_table, linear_clamp, vec2f(x, 0.5), 0.0).rgb);
 }
 
 // Irradiance of a surface against that of a level one, under the sky where the ground stands.

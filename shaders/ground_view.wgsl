@@ -50,14 +50,14 @@ fn field_at(p: vec3f, pixel_m: f32, distance_m: f32) -> SeenGround {
     let inwards = 1.0 - abs(p.xy) / half;
     albedo = mix(skin.sphere, albedo, smoothstep(0.0, max(skin.fade, 1e-3), min(inwards.x, inwards.y)));
     let lit = sun_on_surface(p, plain, pixel_m);
-    return SeenGround(distance_m, from_ground_frame(normal), skin.diffuse * albedo, skin.ambient * albedo, skin.specular, skin.shininess, lit, 1.0);
+    return SeenGround(distance_m, from_ground_frame(normal), skin.diffuse * albedo, skin.ambient * albedo, skin.specular, skin.shininess, lit, 1.0, false);
 }
 
 fn mesh_at(p: vec3f, d: vec3f, pixel_m: f32, distance_m: f32) -> SeenGround {
     let surface = mesh_surface(mesh_hit, d, pixel_m);
     let material = materials[surface.material];
     let lit = sun_on_surface(p, surface.flat_normal, pixel_m);
-    return SeenGround(distance_m, from_ground_frame(surface.normal), material.diffuse * surface.albedo, material.ambient * surface.albedo, material.specular, material.shininess, lit, 1.0);
+    return SeenGround(distance_m, from_ground_frame(surface.normal), material.diffuse * surface.albedo, material.ambient * surface.albedo, material.specular, material.shininess, lit, 1.0, false);
 }
 
 fn look(direction: vec3f) -> SeenGround {
@@ -73,12 +73,12 @@ fn look(direction: vec3f) -> SeenGround {
     } else if t >= 0.0 {
         found = field_at(ground.place_m + t * d, pixel_m, t);
     } else if sphere_m >= 0.0 {
-        // Of the sphere only what lies in the shadow; the rest is the sky's.
+        // Of matt ground only what lies in the shadow; the rest is the sky's.
         let p = ground.place_m + sphere_m * d;
         let normal = normalize(p + vec3f(0.0, 0.0, ground.radius_m));
         let lit = sun_on_surface(p, normal, pixel_m);
-        if lit < 1.0 {
-            found = SeenGround(sphere_m, from_ground_frame(normal), skin.sphere, skin.sphere, 0.0, 1.0, lit, 1.0);
+        if lit < 1.0 || skin.water == 1.0 {
+            found = SeenGround(sphere_m, from_ground_frame(normal), skin.sphere, skin.sphere, 0.0, 1.0, lit, 1.0, skin.water == 1.0);
         }
     }
     return found;

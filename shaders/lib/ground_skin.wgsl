@@ -21,6 +21,8 @@ struct Skin {
     fade: f32,
     // 1 for a ground that changes from place to place, 0 for an even one.
     mottled: f32,
+    // 1 where the sphere is of water.
+    water: f32,
 }
 
 fn skin_hash(at: vec2i) -> f32 {

@@ -109,8 +109,10 @@ fn cast_heightfield(p: vec3f, d: vec3f, from_m: f32, to_m: f32) -> f32 {
     let start = p + begin_m * d;
     let slope = d.xy / ground.cell_m;
     let place = (start.xy - ground.corner_m) / ground.cell_m;
-    let inverse = 1.0 / select(slope, vec2f(1e-12), abs(slope) < vec2f(1e-12));
-    let ahead = vec2i(select(vec2f(0.0), vec2f(1.0), slope > vec2f(0.0)));
+    // An upright ray crosses no edge, not one behind it either.
+    let moving = select(slope, vec2f(1e-12), abs(slope) < vec2f(1e-12));
+    let inverse = 1.0 / moving;
+    let ahead = vec2i(select(vec2f(0.0), vec2f(1.0), moving > vec2f(0.0)));
     let bend = ground.bend_per_m * dot(d.xy, d.xy) * 1.02;
     let last = vec2i(ground.cells) - 1;
     var cell = clamp(vec2i(floor(place)), vec2i(0), last);

@@ -14,6 +14,7 @@ struct SeenGround {
     lit: f32,
     // Of the sky, past the ground.
     open: f32,
+    water: bool,
 }
 
 struct PackedGround {
@@ -24,6 +25,8 @@ struct PackedGround {
     ambient: u32,
     // Specular, and the logarithm of the shininess.
     mirror: u32,
+    // 1 for water.
+    water: u32,
 }
 
 // Octahedron (Meyer et al. 2010).
@@ -50,6 +53,7 @@ fn pack_ground(seen: SeenGround) -> PackedGround {
         pack4x8unorm(vec4f(sqrt(seen.diffuse), seen.lit)),
         pack4x8unorm(vec4f(sqrt(seen.ambient), seen.open)),
         pack2x16unorm(vec2f(seen.specular, log2(max(seen.shininess, 1.0)) / SHARPEST)),
+        select(0u, 1u, seen.water),
     );
 }
 
@@ -66,5 +70,6 @@ fn unpack_ground(packed: PackedGround) -> SeenGround {
         exp2(SHARPEST * mirror.y),
         diffuse.a,
         ambient.a,
+        packed.water == 1u,
     );
 }

@@ -74,7 +74,7 @@ impl Probe {
                 let mut bytes = bytes.iter();
                 let mut left = vec![1.0; rays.len()];
                 if ground.is_some() {
-                    let seen: Vec<[f32; 5]> = bytes
+                    let seen: Vec<[f32; 6]> = bytes
                         .next()
                         .map_or_else(Vec::new, |b| bytemuck::pod_collect_to_vec(b));
                     for (left, seen) in left.iter_mut().zip(seen) {

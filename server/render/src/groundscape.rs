@@ -4,7 +4,7 @@ use crate::{
     cloudscape::CloudLight,
     error::Error,
     gpu::Gpu,
-    ground::{Shapes, Terrains, skin},
+    ground::{Shapes, Terrains, skin, wind_m_s},
     kernel::Recorder,
     memo::Fingerprint,
     passes::{
@@ -113,6 +113,8 @@ pub(crate) struct Groundscape {
     pub(crate) shadow: Shades,
     /// How shafts are looked for, if they are.
     shafts: Option<ShaftsUniform>,
+    /// Over a sphere of water.
+    pub(crate) wind_m_s: Option<f32>,
     /// True where the shadow is that of the moon.
     pub(crate) by_moon: bool,
     pub(crate) harmonics: Arc<wgpu::Buffer>,
@@ -126,7 +128,7 @@ pub(crate) struct Groundscape {
 impl Groundscape {
     /// True where it, or who looks, may stand above clouds that begin at that altitude: then some are before it.
     pub(crate) fn may_hide(&self, base_m: f32, stand: &Standpoint) -> bool {
-        if self.terrains.shape.code == 0.0 {
+        if self.terrains.shape.code == 0.0 && self.wind_m_s.is_none() {
             return false;
         }
         let top_m = self.terrains.shape.most_m.z.max(stand.altitude_m);
@@ -147,7 +149,7 @@ impl GroundPasses {
         }
     }
 
-    /// None where a scene has neither ground but the sphere nor shafts. `light` is the one that casts shadows, `moon` where the moon stands
+    /// None where a scene has no ground but a matt sphere, nor shafts. `light` is the one that casts shadows, `moon` where the moon stands
     /// if its light counts.
     pub(crate) fn scape(
         &mut self,
@@ -159,7 +161,8 @@ impl GroundPasses {
         quality: Quality,
     ) -> Result<Option<Groundscape>, Error> {
         let shafts = shafts(scene, light.clouded, quality);
-        if scene.terrain.is_none() && shafts.is_none() {
+        let wind_m_s = wind_m_s(scene);
+        if scene.terrain.is_none() && shafts.is_none() && wind_m_s.is_none() {
             return Ok(None);
         }
         let terrains = self.shapes.of(recorder.gpu, scene, assets)?;
@@ -193,7 +196,7 @@ impl GroundPasses {
             (&ground, &stand, &skin),
             shadow.fingerprint(),
             volumes.as_ref().map(|v| v.made_from),
-            format!("{lights:?} {shafts:?} {towards}"),
+            format!("{lights:?} {shafts:?} {towards} {wind_m_s:?}"),
         ));
         Ok(Some(Groundscape {
             terrains,
@@ -202,6 +205,7 @@ impl GroundPasses {
             stand,
             shadow,
             shafts,
+            wind_m_s,
             by_moon,
             harmonics,
             aerial: volumes,

@@ -19,7 +19,7 @@ use crate::{
 use glam::{DVec2, DVec3, USizeVec2, UVec2};
 pub(crate) use mesh::Solid;
 pub(crate) use mountains::Range;
-pub(crate) use skin::skin;
+pub(crate) use skin::{skin, wind_m_s};
 use std::sync::Arc;
 use welkin_scene::{Scene, Terrain, assets::SceneAssets, terrain::Heightfield};
 

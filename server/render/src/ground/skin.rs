@@ -2,16 +2,18 @@
 
 use crate::uniforms::{ground::SkinUniform, narrow, narrow3};
 use welkin_scene::{
-    Scene, Terrain,
+    Scene, SphereSurface, Terrain,
     terrain::{GroundAlbedo, SurfaceBands},
 };
 
 /// Of a scene's terrain and of the sphere about it.
 pub(crate) fn skin(scene: &Scene) -> SkinUniform {
     let sphere = narrow3(scene.planet.ground_albedo);
+    let water = if wind_m_s(scene).is_some() { 1.0 } else { 0.0 };
     let Some(Terrain::Heightfield(field)) = &scene.terrain else {
         return SkinUniform {
             sphere,
+            water,
             ..SkinUniform::default()
         };
     };
@@ -46,5 +48,14 @@ pub(crate) fn skin(scene: &Scene) -> SkinUniform {
         sphere,
         fade: narrow(field.edge_fade),
         mottled,
+        water,
+    }
+}
+
+/// Over a sphere of water; none over one of ground.
+pub(crate) fn wind_m_s(scene: &Scene) -> Option<f32> {
+    match scene.planet.surface {
+        SphereSurface::Water(water) => Some(narrow(water.wind_m_s)),
+        SphereSurface::Ground {} => None,
     }
 }

@@ -7,7 +7,11 @@ use crate::{
     kernel::{Bind, Recorder, Variants},
     method::Plan,
     shader,
-    uniforms::{Part, clouds::ShadeUniform, ground::ShaftsUniform},
+    uniforms::{
+        Part,
+        clouds::ShadeUniform,
+        ground::{LightSettingsUniform, ShaftsUniform},
+    },
 };
 
 pub(crate) struct GroundLight {
@@ -74,8 +78,11 @@ impl GroundLight {
             shade.upload(gpu, "shade"),
             Part::new(&scape.frame).upload(gpu, "clouds"),
         );
-        let none = ShaftsUniform { grain: 1, steps: 0 };
-        let settings = Part::new(&lost.map_or(none, |(_, settings)| *settings)).upload(gpu, "shafts");
+        let settings = Part::new(&LightSettingsUniform {
+            grain: lost.map_or(1, |(_, settings)| settings.grain),
+            wind_m_s: scape.wind_m_s.unwrap_or(0.0),
+        });
+        let settings = settings.upload(gpu, "light settings");
         let unused = gpu.buffer("unused", 16, wgpu::BufferUsages::STORAGE);
         let shade_maps = inputs
             .clouds
@@ -124,6 +131,7 @@ impl GroundLight {
             ("MOONLIGHT", flag(inputs.moon_view.is_some())),
             ("MOON_HIDDEN", flag(scape.by_moon)),
             ("SHAFTS", flag(lost.is_some())),
+            ("WATER", flag(scape.wind_m_s.is_some())),
             ("CLOUDS", flag(inputs.clouds.is_some())),
             ("DOME", flag(inputs.clouds.is_some() && !inputs.followed)),
         ];

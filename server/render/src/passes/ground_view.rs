@@ -66,7 +66,7 @@ impl Looks<'_> {
 }
 
 /// Of what is seen in one direction; the first four are the distance.
-pub(crate) const SEEN_BYTES: u64 = 20;
+pub(crate) const SEEN_BYTES: u64 = 24;
 
 pub(crate) struct GroundView {
     kernels: Variants,

@@ -51,6 +51,7 @@ pub(crate) struct SkinUniform {
     pub(crate) sphere: Vec3,
     pub(crate) fade: f32,
     pub(crate) mottled: f32,
+    pub(crate) water: f32,
 }
 
 /// `Stand` of `ground_view.wgsl`.
@@ -71,4 +72,11 @@ pub(crate) struct SkyPartUniform {
 pub(crate) struct ShaftsUniform {
     pub(crate) grain: u32,
     pub(crate) steps: u32,
+}
+
+/// `LightSettings` of `ground_light.wgsl`.
+#[derive(Clone, Copy, Debug, ShaderType)]
+pub(crate) struct LightSettingsUniform {
+    pub(crate) grain: u32,
+    pub(crate) wind_m_s: f32,
 }

@@ -5,6 +5,7 @@ mod heightfield;
 mod mesh;
 mod mountains;
 mod shafts;
+mod water;
 
 use glam::DVec3;
 use rand_xoshiro::{Xoshiro256PlusPlus, rand_core::RngCore};
