@@ -29,6 +29,8 @@ override SPAN: u32 = 1u;
 override CURVE: u32 = 3u;
 // True to look clouds up by direction, false for a table of the tile's pixels.
 override DOME: bool = false;
+// True where more than the sphere stands on the ground, or shafts fall through the air.
+override GROUND: bool = false;
 
 struct Tile {
     origin_px: vec2u,
@@ -53,6 +55,8 @@ struct Tile {
 // Where each block of the dome is kept, and what is seen of clouds at their corners.
 @group(0) @binding(26) var<storage, read> dome_pages: array<u32>;
 @group(0) @binding(27) var<storage, read> dome_seen: array<vec4f>;
+// Of each pixel of the tile: radiance and distance of what stands on the ground; or what the sky loses to shafts, and -1.
+@group(0) @binding(28) var<storage, read> lit_ground: array<vec4f>;
 
 // Pixels of a row that share a thread of the last stage, and of which uneven ones may share as SPAN says.
 const BLOCK = 8u;
@@ -104,10 +108,23 @@ fn write_run(first: vec2u, begin: u32, end: u32) {
     let y = (first.y - tile.origin_px.y) / tile.stride_px;
     var x = (first.x + begin - tile.origin_px.x) / tile.stride_px;
     for (var k = begin; k < end; k += tile.stride_px) {
+        let i = y * tile.size_px.x + x;
         let place = row + vec2f(f32(k), 0.0);
         let sight = sight_at(camera, PROJECTION, place);
         var value = vec4f(0.0);
-        if sight.seen {
+        var before = vec4f(0.0, 0.0, 0.0, -1.0);
+        if GROUND {
+            before = lit_ground[i];
+        }
+        if sight.seen && before.w >= 0.0 {
+            // Where there is a dome, no cloud stands before the ground.
+            var seen = before.rgb;
+            if !DOME {
+                seen = with_clouds(seen, vec2u(x, y), sight.direction);
+            }
+            value = vec4f(seen, 1.0 + angle_if_near(sight.direction, glaring()));
+        }
+        for (var open = sight.seen && before.w < 0.0; open; open = false) {
             var disc = disc_in_pixel(place, sight.direction);
             if MOON {
                 disc = moon.sun_disc_scale * (disc + corona_towards(sight.direction));
@@ -129,13 +146,16 @@ fn write_run(first: vec2u, begin: u32, end: u32) {
             } else {
                 light = light_towards(sight.direction, dot(sight.direction, view.up), nu);
             }
-            var seen = with_clouds(radiance_of(light, nu, select(disc, vec3f(0.0), DOME)), vec2u(x, y), sight.direction);
+            var clear = radiance_of(light, nu, select(disc, vec3f(0.0), DOME));
+            if GROUND {
+                clear = max(clear - before.rgb, vec3f(0.0));
+            }
+            var seen = with_clouds(clear, vec2u(x, y), sight.direction);
             if DOME {
                 seen += light.left * disc;
             }
             value = vec4f(seen, 1.0 + angle_if_near(sight.direction, glaring()));
         }
-        let i = y * tile.size_px.x + x;
         if PICTURE {
             picture[i] = picture_pixel(tone_settings, exposure.scale, CURVE, value, first + vec2u(k, 0u));
         } else {
@@ -143,6 +163,18 @@ fn write_run(first: vec2u, begin: u32, end: u32) {
         }
         x++;
     }
+}
+
+// True where something stands on the ground in a block of pixels, from `begin` to before `end`.
+fn is_ground_within(begin: vec2u, end: vec2u) -> bool {
+    var there = false;
+    for (var y = begin.y; y < end.y; y++) {
+        for (var x = begin.x; x < end.x; x++) {
+            let before = lit_ground[(y - tile.origin_px.y) * tile.size_px.x + x - tile.origin_px.x];
+            there |= before.w >= 0.0;
+        }
+    }
+    return there;
 }
 
 // Lattices lie on the whole frame, so that tiles leave no seam. This is the first place of the tile's part.
@@ -193,6 +225,13 @@ fn write_place(id: vec2u) {
         let nu = clamp(dot(sight.direction, view.sun), -1.0, 1.0);
         clear.seen = radiance_of(light_towards(sight.direction, dot(sight.direction, view.up), nu), nu, vec3f(0.0));
     }
+    if GROUND {
+        // Places beyond the tile's edge lose what those at the edge do.
+        let within = clamp(pixel, tile.origin_px, tile.origin_px + tile.size_px - 1u) - tile.origin_px;
+        let before = lit_ground[within.y * tile.size_px.x + within.x];
+        clear.seen -= select(before.rgb, vec3f(0.0), before.w >= 0.0 || (STAGE == 2u && clear.even == 2.0));
+        clear.seen = max(clear.seen, vec3f(0.0));
+    }
     var even = clear.even;
     if even == 0.0 {
         let veil = tone_settings.glare > 0.0 && any(tone_settings.glaring_irradiance > vec3f(0.0));
@@ -226,6 +265,9 @@ fn write_block(id: vec2u) {
     var even = true;
     for (var x = cells_begin; x < cells_end; x++) {
         even &= lattice[i + x - cells_begin].a > 0.0;
+    }
+    if GROUND {
+        even &= !is_ground_within(begin, end);
     }
     if !even {
         for (var y = begin.y; y < end.y; y++) {

@@ -30,6 +30,8 @@ struct Stretch {
 override CLOUDS: bool = false;
 // True to look clouds up by direction, false for a table of the tile's pixels.
 override DOME: bool = false;
+// True where more than the sphere stands on the ground.
+override GROUND: bool = false;
 
 @group(0) @binding(0) var<uniform> air: Air;
 @group(0) @binding(1) var<uniform> view: View;
@@ -44,6 +46,8 @@ override DOME: bool = false;
 // Where each block of the dome is kept, and what is seen of clouds at their corners.
 @group(0) @binding(9) var<storage, read> dome_pages: array<u32>;
 @group(0) @binding(10) var<storage, read> dome_seen: array<vec4f>;
+// Of each pixel, in alpha, how far away that is; else -1.
+@group(0) @binding(11) var<storage, read> lit_ground: array<vec4f>;
 
 fn left_towards(direction: vec3f) -> f32 {
     let cell = dome_cell(dome, direction, view.up, cos(edge_zenith_angle(air.radius_m, view.altitude_m)));
@@ -72,5 +76,9 @@ fn stars(@builtin(global_invocation_id) id: vec3u) {
     } else if CLOUDS {
         left *= textureLoad(cloud_table, place, 0).a;
     }
-    radiance[place.y * stretch.size_px.x + place.x] += vec4f(stretch.out * left * glint.radiance, 0.0);
+    let i = place.y * stretch.size_px.x + place.x;
+    if GROUND {
+        left *= select(1.0, 0.0, lit_ground[i].w >= 0.0);
+    }
+    radiance[i] += vec4f(stretch.out * left * glint.radiance, 0.0);
 }

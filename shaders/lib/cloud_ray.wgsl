@@ -20,6 +20,8 @@ struct CloudRay {
     ground: bool,
     // To the ground, or farther than anything.
     end_m: f32,
+    // To what stands on it, or as far as that.
+    stop_m: f32,
     // The stretch in the air.
     air_from_m: f32,
     air_length_m: f32,
@@ -43,7 +45,7 @@ fn cloud_ray(observer: Observer, direction: vec3f, jitter: f32, spread: f32) -> 
     let azimuth = angle_of_cosine(cosine_of_azimuth(mu, view.mu_s, nu));
     let to_top_m = distance_to_sphere(air.radius_m + air.top_m, view.altitude_m - air.top_m, mu);
     let from_m = select(0.0, to_top_m, view.altitude_m > air.top_m);
-    return CloudRay(direction, mu, nu, azimuth, angle_of_cosine(mu), ground, end_m, from_m, max(entry.length_m, 0.0), jitter, spread);
+    return CloudRay(direction, mu, nu, azimuth, angle_of_cosine(mu), ground, end_m, end_m, from_m, max(entry.length_m, 0.0), jitter, spread);
 }
 
 fn place_at(t: f32, direction: vec3f) -> vec3f {

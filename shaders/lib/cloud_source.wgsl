@@ -143,6 +143,6 @@ fn unlit_air(ray: CloudRay) -> vec3f {
         return vec3f(0.0);
     }
     let up_m = distance_to_top(clouds.radius_m, shade.base_m, view.altitude_m, ray.mu);
-    let under = air_before(ray, min(up_m, ray.end_m));
+    let under = air_before(ray, min(up_m, ray.stop_m));
     return (1.0 - shade.direct_left) * under.single + (1.0 - shade.diffuse_left) * under.multiple;
 }

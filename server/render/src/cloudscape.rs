@@ -38,7 +38,7 @@ use welkin_scene::{
 /// The passes of the clouds.
 pub(crate) struct CloudPasses {
     noise: CloudNoise,
-    aerial: Aerial,
+    pub(crate) aerial: Aerial,
     shadow: CloudShadow,
     pub(crate) dome: CloudDomes,
     pictures: Memo<Table>,
@@ -67,6 +67,8 @@ pub(crate) struct Cloudscape {
     multi_scattering: Arc<MultiScattering>,
     pub(crate) aerial: Arc<AerialVolumes>,
     pub(crate) shadow: Arc<Table>,
+    /// Altitude of the lowest.
+    pub(crate) base_m: f32,
     place_m: Vec3,
     light: Vec3,
     one_layer: (&'static str, f64),
@@ -176,20 +178,33 @@ impl Cloudscape {
 pub(crate) struct CloudLight<'a> {
     pub(crate) stand: Standpoint,
     pub(crate) view: &'a Part,
+    /// True where there are clouds.
+    pub(crate) clouded: bool,
+    /// True where shafts tell which air they keep it from.
+    pub(crate) shafted: bool,
 }
 
 impl<'a> CloudLight<'a> {
     /// The sun, or at night the moon.
-    pub(crate) fn new(stand: &Standpoint, night: &Night, lights: &'a Lights) -> Self {
+    pub(crate) fn new(
+        stand: &Standpoint,
+        night: &Night,
+        lights: &'a Lights,
+        (clouded, shafted): (bool, bool),
+    ) -> Self {
         let by_moon = night.moon.filter(|moon| moon.counts > 0.0 && stand.is_night());
         by_moon.zip(lights.moon_view()).map_or(
             Self {
                 stand: *stand,
                 view: lights.view(false),
+                clouded,
+                shafted,
             },
             |(moon, view)| Self {
                 stand: moon.stand(stand),
                 view,
+                clouded,
+                shafted,
             },
         )
     }
@@ -293,7 +308,11 @@ impl CloudPasses {
     ) -> Cloudscape {
         let scene = sky.scene;
         let clouds = Part::new(&sky.uniform(fineness(quality)));
-        let shade = sky.shade(&light.stand, scene.camera.position_m);
+        let mut shade = sky.shade(&light.stand, scene.camera.position_m);
+        if light.shafted {
+            shade.direct_left = 1.0;
+        }
+        let base_m = shade.base_m;
         let shade = Part::new(&shade);
         let reads = (&*tables.transmittance, &tables.multi_scattering.source);
         let aerial = self
@@ -336,6 +355,7 @@ impl CloudPasses {
             multi_scattering: Arc::clone(&tables.multi_scattering),
             aerial,
             shadow,
+            base_m,
             place_m: crate::uniforms::narrow3(scene.camera.position_m),
             light: light.stand.sun.as_vec3(),
             one_layer: sky.one_layer(),

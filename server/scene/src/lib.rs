@@ -41,7 +41,8 @@ pub mod timeline;
 
 pub use airglow::Airglow;
 pub use assets::{
-    AssetReference, HeightGrid, Material, MeshModel, SceneAssets, Texture, WeatherPicture, is_asset_name,
+    AssetKind, AssetReference, HeightGrid, Material, MeshModel, SceneAssets, Texture, WeatherPicture,
+    is_asset_name,
 };
 pub use atmosphere::{Atmosphere, Method, Mie, Orders, Ozone, Rayleigh};
 pub use bands::Bands;

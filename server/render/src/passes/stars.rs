@@ -49,6 +49,8 @@ pub(crate) struct StarsInputs<'a> {
     pub(crate) view: &'a Part,
     pub(crate) transmittance: &'a Table,
     pub(crate) clouds: Option<CloudsSeen<'a>>,
+    /// What stands on the ground before each pixel.
+    pub(crate) lit_ground: Option<&'a wgpu::Buffer>,
 }
 
 impl StarsPass {
@@ -139,11 +141,13 @@ impl StarsPass {
             Bind::Buffer(&dome_uniform),
             Bind::Buffer(pages),
             Bind::Buffer(seen),
+            Bind::Buffer(inputs.lit_ground.unwrap_or(&nowhere)),
         ];
         let flag = |on: bool| f64::from(u8::from(on));
         let constants = [
             ("CLOUDS", flag(inputs.clouds.is_some())),
             ("DOME", flag(dome.is_some())),
+            ("GROUND", flag(inputs.lit_ground.is_some())),
         ];
         let kernel = self.kernels.get(gpu, &constants);
         recorder.dispatch(kernel, &binds, [threads, 1, 1]);

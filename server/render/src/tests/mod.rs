@@ -13,6 +13,7 @@ mod cloud;
 mod depth;
 mod furnace;
 mod geometry;
+mod ground;
 mod half_tables;
 mod layout;
 mod lens;

@@ -7,6 +7,7 @@ pub use terrain::{HeightGrid, Material, MeshModel, Texture};
 use crate::{
     clouds::{AssetMap, BlendMap, PlainMap, WeatherMap},
     document::Scene,
+    terrain::Terrain,
 };
 use std::{collections::BTreeMap, fmt, sync::Arc};
 
@@ -112,9 +113,22 @@ impl SceneAssets {
     }
 }
 
+/// What an asset is for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum AssetKind {
+    /// A picture that spreads clouds.
+    WeatherMap,
+    /// Heights over a rectangle.
+    Heightfield,
+    /// Triangles.
+    Mesh,
+}
+
 /// A place in a scene where an asset is named.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct AssetReference<'a> {
+    /// What it is for.
+    pub kind: AssetKind,
     /// The field that holds the name, as a JSON pointer in the scene.
     pub pointer: &'static str,
     /// The name.
@@ -122,32 +136,45 @@ pub struct AssetReference<'a> {
 }
 
 impl Scene {
-    /// The weather maps that the scene takes from the asset store, in the order of the document.
+    /// What the scene takes from the asset store, in the order of the document.
     #[must_use]
-    pub fn weather_map_references(&self) -> Vec<AssetReference<'_>> {
-        let Some(clouds) = &self.clouds else {
-            return Vec::new();
-        };
-        match &clouds.weather_map {
-            WeatherMap::Asset(AssetMap { name, .. }) => vec![AssetReference {
+    pub fn asset_references(&self) -> Vec<AssetReference<'_>> {
+        let mut found = Vec::new();
+        match self.clouds.as_ref().map(|clouds| &clouds.weather_map) {
+            Some(WeatherMap::Asset(AssetMap { name, .. })) => found.push(AssetReference {
+                kind: AssetKind::WeatherMap,
                 pointer: "/clouds/weather_map/name",
                 name,
-            }],
-            WeatherMap::Blend(BlendMap { from, to, .. }) => [
-                plain(from, "/clouds/weather_map/from/name"),
-                plain(to, "/clouds/weather_map/to/name"),
-            ]
-            .into_iter()
-            .flatten()
-            .collect(),
-            WeatherMap::Procedural(_) | WeatherMap::Uniform(_) => Vec::new(),
+            }),
+            Some(WeatherMap::Blend(BlendMap { from, to, .. })) => {
+                found.extend(plain(from, "/clouds/weather_map/from/name"));
+                found.extend(plain(to, "/clouds/weather_map/to/name"));
+            }
+            Some(WeatherMap::Procedural(_) | WeatherMap::Uniform(_)) | None => {}
         }
+        let terrain = match &self.terrain {
+            Some(Terrain::Heightfield(field)) => {
+                field.name.as_ref().map(|name| (AssetKind::Heightfield, name))
+            }
+            Some(Terrain::Mesh(mesh)) => Some((AssetKind::Mesh, &mesh.name)),
+            None => None,
+        };
+        found.extend(terrain.map(|(kind, name)| AssetReference {
+            kind,
+            pointer: "/terrain/name",
+            name,
+        }));
+        found
     }
 }
 
 fn plain<'a>(map: &'a PlainMap, pointer: &'static str) -> Option<AssetReference<'a>> {
     match map {
-        PlainMap::Asset(AssetMap { name, .. }) => Some(AssetReference { pointer, name }),
+        PlainMap::Asset(AssetMap { name, .. }) => Some(AssetReference {
+            kind: AssetKind::WeatherMap,
+            pointer,
+            name,
+        }),
         PlainMap::Procedural(_) | PlainMap::Uniform(_) => None,
     }
 }
@@ -232,7 +259,8 @@ mod tests {
     fn references_are_found_wherever_a_map_may_stand() {
         let found = |map: serde_json::Value| {
             let scene = Scene::from_value(&json!({"clouds": {"weather_map": map}})).unwrap();
-            let found = scene.weather_map_references();
+            let found = scene.asset_references();
+            assert!(found.iter().all(|r| r.kind == AssetKind::WeatherMap));
             found
                 .iter()
                 .map(|r| (r.pointer, r.name.to_owned()))
@@ -256,6 +284,23 @@ mod tests {
             [("/clouds/weather_map/to/name", "b".to_owned())]
         );
         let cloudless = Scene::from_value(&json!({"clouds": null})).unwrap();
-        assert_eq!(cloudless.weather_map_references(), []);
+        assert_eq!(cloudless.asset_references(), []);
+        for (terrain, kind) in [
+            (
+                json!({"kind": "heightfield", "name": "alps"}),
+                AssetKind::Heightfield,
+            ),
+            (json!({"kind": "mesh", "name": "alps"}), AssetKind::Mesh),
+        ] {
+            let scene = Scene::from_value(&json!({"clouds": null, "terrain": terrain})).unwrap();
+            let reference = AssetReference {
+                kind,
+                pointer: "/terrain/name",
+                name: "alps",
+            };
+            assert_eq!(scene.asset_references(), [reference]);
+        }
+        let made = Scene::from_value(&json!({"terrain": {"kind": "heightfield"}})).unwrap();
+        assert_eq!(made.asset_references(), []);
     }
 }

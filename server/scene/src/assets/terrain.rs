@@ -32,7 +32,8 @@ impl fmt::Debug for HeightGrid {
 pub struct MeshModel {
     /// Of each vertex.
     pub positions: Arc<[[f32; 3]]>,
-    /// Of each vertex, of length 1. Where the file has none: of the triangles about the vertex, by their areas.
+    /// Of each vertex, of length 1. Where the file has none: of the triangles about the vertex, by their angles
+    /// there.
     pub normals: Arc<[[f32; 3]]>,
     /// Of each vertex; (0, 0) is the texture's upper left corner, (1, 1) its lower right one, and it repeats beyond.
     /// Zeros where the file has none.

@@ -18,5 +18,6 @@ mod strategies;
 mod sun;
 mod terrain;
 mod timeline;
+mod timeline_ground;
 mod timeline_random;
 mod timeline_sky;
