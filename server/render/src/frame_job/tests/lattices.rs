@@ -128,7 +128,10 @@ fn every_curve_is_the_same_to_one_step() {
 fn clouds_are_the_same_but_at_rims() {
     let mut engine = engine();
     let scene = Scene {
-        clouds: Some(welkin_scene::Clouds::default()),
+        clouds: Some(welkin_scene::Clouds {
+            coverage: 0.5,
+            ..welkin_scene::Clouds::default()
+        }),
         ..scene(&json!({"camera": {"direction": {"azimuth_deg": 60, "elevation_deg": 12}}}))
     };
     let (most, beyond) = difference(&both(&mut engine, &order(scene, 225, 150, Output::Display)));
