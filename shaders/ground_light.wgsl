@@ -132,13 +132,13 @@ fn radiance_by(light: View, first: u32, lit: f32, found: SeenGround, place: Plac
 
 const MIRROR_STEPS = 16u;
 
-// Of water: the light's glitter, the sky that the waves mirror, and what comes back out of the water of what went in.
+// Of water: the light's glitter, which is the image of its disc, the sky that the waves mirror, and what comes back out of the water of what went in.
 fn water_by(light: View, albedo: vec3f, straight: vec3f, sky: vec3f, lit: f32, place: Place, direction: vec3f) -> vec3f {
     let variance = slope_variance(settings.wind_m_s);
     let mu = dot(place.up, light.sun);
     let view_cosine = max(-dot(direction, place.up), 0.0);
     let mirrors = mean_reflectance(view_cosine, variance);
-    let sun = lit * transmittance_to_space(air, transmittance_table, linear_clamp, 0.0, mu) * glitter(place.up, -direction, light.sun, variance);
+    let sun = light.disc * lit * transmittance_to_space(air, transmittance_table, linear_clamp, 0.0, mu) * glitter(place.up, -direction, light.sun, variance);
     let towards = mirrored_direction(place.up, -direction, variance);
     let mu_towards = dot(towards, place.up);
     let nu = clamp(dot(towards, light.sun), -1.0, 1.0);

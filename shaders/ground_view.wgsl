@@ -38,6 +38,8 @@ struct Stand {
 @group(0) @binding(10) var<storage, read_write> seen: array<PackedGround>;
 
 const ENDLESS_M = 1e12;
+// Of a field, what lies lower than this is under water: its even edge lies in the water's surface.
+const SHORE_M = 0.1;
 
 fn field_at(p: vec3f, pixel_m: f32, distance_m: f32) -> SeenGround {
     let rise = rise_at(p, pixel_m);
@@ -72,7 +74,7 @@ fn look(direction: vec3f) -> SeenGround {
     let pixel_m = camera.pixel_angle * max(t, sphere_m);
     if t >= 0.0 && SHAPE == 2u {
         found = mesh_at(ground.place_m + t * d, d, pixel_m, t);
-    } else if t >= 0.0 {
+    } else if t >= 0.0 && (skin.water == 0.0 || height_at(ground.place_m + t * d) > SHORE_M) {
         found = field_at(ground.place_m + t * d, pixel_m, t);
     } else if sphere_m >= 0.0 {
         // Of matt ground only what lies in the shadow; the rest is the sky's.

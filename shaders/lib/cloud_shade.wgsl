@@ -86,7 +86,10 @@ fn light_depth_within(
     let l = clamp((share - lower_before) / (LOWER_SHARES - lower_before), vec4f(0.0), vec4f(1.0));
     let over = dot(u, upper - vec4f(0.0, upper.xyz)) + dot(l, lower - vec4f(upper.w, lower.xyz));
     let under = lower.w - over;
-    return LightDepth(select(under, over, mu >= 0.0), select(over, under, mu >= 0.0));
+    // Light that runs level in a place comes from above on the near side and from below on the far one: the sphere falls
+    // away, by a band's thickness or so where it runs at the least cosine.
+    let from_above = smoothstep(-LEAST_COSINE, LEAST_COSINE, mu);
+    return LightDepth(mix(under, over, from_above), mix(over, under, from_above));
 }
 
 // Optical depth towards the light of all bands over a place. `mu` is the light's cosine with the zenith there.
