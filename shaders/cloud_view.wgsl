@@ -39,7 +39,8 @@ fn cloud_view(@builtin(global_invocation_id) id: vec3u) {
         return;
     }
     let in_frame = tile.origin_px + tile.stride_px * id.xy;
-    let pixel = vec2f(in_frame);
+    // What lies left of the frame wraps round.
+    let pixel = vec2f(vec2i(in_frame));
     let sight = sight_at(camera, PROJECTION, pixel + 0.5);
     var seen: Nodes;
     if sight.seen {

@@ -25,6 +25,8 @@ override AIRGLOW: bool = true;
 override MOONLIGHT: bool = false;
 override CLOUDS: bool = false;
 override SHAFTS: bool = false;
+// True where they are of all the light that clouds keep from the air, which then is not dimmed on average.
+override SHAFTED: bool = false;
 // True where the sphere is of water.
 override WATER: bool = false;
 // True where nobody follows a ray through the clouds before the ground: none are there.
@@ -194,7 +196,7 @@ fn under_clouds(light: Scattered, direction: vec3f, distance_m: f32) -> Scattere
     }
     let up_m = distance_to_top(air.radius_m, shade.base_m, view.altitude_m, dot(direction, view.up));
     let share = min(up_m / max(distance_m, 1.0), 1.0);
-    let single = mix(1.0, select(shade.direct_left, 1.0, SHAFTS), share);
+    let single = mix(1.0, select(shade.direct_left, 1.0, SHAFTED), share);
     return Scattered(single * light.rayleigh, single * light.mie, mix(1.0, shade.diffuse_left, share) * light.multiple, light.optical_depth);
 }
 

@@ -15,6 +15,8 @@ import package::lib::transmittance::transmittance_to_space;
 override PROJECTION: u32 = 0u;
 override LIST: bool = false;
 override CLOUDS: bool = false;
+// True to smear over the picture what hides the source's surroundings.
+override RADIAL: bool = false;
 
 struct Tile {
     origin_px: vec2u,
@@ -31,8 +33,14 @@ struct CloudFrame {
 }
 
 struct Shafts {
-    // Places along a ray.
+    // Places along a ray, or over the picture.
     steps: u32,
+    // For radial ones: how much of the way to the source's image is looked at, what counts of its far end, what multiplies
+    // the shafts, and where the image is, in shares of the picture's sides.
+    length: f32,
+    decay: f32,
+    strength: f32,
+    image: vec2f,
 }
 
 @group(0) @binding(3) var<uniform> air: Air;
@@ -50,6 +58,8 @@ struct Shafts {
 @group(0) @binding(14) var<storage, read> seen: array<PackedGround>;
 // Radiance in R, G, B, and how far away the ray ends.
 @group(0) @binding(15) var<storage, read_write> lost: array<vec4f>;
+// Six vectors a place, as `Nodes` has them.
+@group(0) @binding(16) var<storage, read> clouds_seen: array<vec4f>;
 
 // Beyond, no shadow is looked for.
 const FARTHEST_M = 1.6e5;
@@ -84,18 +94,23 @@ fn hidden_share(p: vec3f, altitude_m: f32, mu: f32) -> f32 {
     return 1.0 - lit;
 }
 
+// Steps of a ray that is lit alike all along.
+const EVEN_STEPS = 12u;
+
 // ∫ (1 - V) T σ_s p T_light dt, by the middles of steps that grow with the square, all moved by the same share of a step.
-fn lost_along(direction: vec3f, end_m: f32, jitter: f32) -> vec3f {
+fn lost_along(direction: vec3f, end_m: f32, jitter: f32, smeared: f32) -> vec3f {
     let mu = clamp(dot(direction, view.up), -1.0, 1.0);
     let nu = clamp(dot(direction, view.sun), -1.0, 1.0);
     let h0 = view.altitude_m;
     // The air ends there.
     let in_air = select(vec2f(0.0, distance_to_top(air.radius_m, air.top_m, h0, mu)), shell_stretch(air.radius_m + air.top_m, h0 - air.top_m, mu, end_m), h0 > air.top_m);
     var reach = vec2f(0.0);
-    if SHADOW != 0u {
+    if RADIAL {
+        reach = vec2f(0.0, end_m);
+    } else if SHADOW != 0u {
         reach = stretch_in_map(ground.place_m, to_ground_frame(direction));
     }
-    if CLOUDS && shade.count > 0u {
+    if !RADIAL && CLOUDS && shade.count > 0u {
         let last = shade.count - 1u;
         let top_m = shade.middles_m[last / 4u][last % 4u];
         reach = joined(reach, shell_stretch(air.radius_m + top_m, h0 - top_m, mu, end_m));
@@ -117,15 +132,19 @@ fn lost_along(direction: vec3f, end_m: f32, jitter: f32) -> vec3f {
         }
         let rayleigh = rayleigh_phase(nu);
         let mie = cornette_shanks_phase(nu, air.mie_asymmetry);
-        for (var k = 0u; k < settings.steps; k++) {
-            let near = f32(k) / f32(settings.steps);
-            let far = f32(k + 1u) / f32(settings.steps);
+        let steps = select(settings.steps, EVEN_STEPS, RADIAL);
+        for (var k = 0u; k < steps; k++) {
+            let near = f32(k) / f32(steps);
+            let far = f32(k + 1u) / f32(steps);
             let dt = (to_m - from_m) * (far * far - near * near);
             let x = mix(near, far, jitter);
             let t = from_m + (to_m - from_m) * x * x;
             let h = max(altitude_after(air.radius_m, h0, mu, t), 0.0);
             let mu_light = cosine_after(air.radius_m, h0, h, view.mu_s, nu, t);
-            let hidden = hidden_share(cloud_frame.place_m + t * direction, h, mu_light);
+            var hidden = smeared;
+            if !RADIAL {
+                hidden = hidden_share(cloud_frame.place_m + t * direction, h, mu_light);
+            }
             let c = coefficients_at(air, h, h < air.haze_top_m);
             let passed = exp(-c.extinction_per_m * dt);
             // A loop of one round at most: a software device runs what an `if` leaves out.
@@ -152,16 +171,43 @@ fn end_of(direction: vec3f, seen_m: f32) -> f32 {
     return select(select(ENDLESS_M, met_m, met_m >= 0.0), seen_m, seen_m >= 0.0);
 }
 
-fn look(i: u32, direction: vec3f, seen_m: f32, jitter: f32) {
+fn look(i: u32, direction: vec3f, seen_m: f32, jitter: f32, smeared: f32) {
     let end_m = end_of(direction, seen_m);
-    lost[i] = vec4f(lost_along(direction, end_m, jitter), end_m);
+    lost[i] = vec4f(lost_along(direction, end_m, jitter, smeared), end_m);
+}
+
+// Of the picture between a place of the lattice and the source's image, the share that something stands or hangs before,
+// the nearer the more (Mitchell, GPU Gems 3, chapter 13). What lies beyond the picture hides nothing.
+fn hidden_towards_image(id: vec2u, jitter: f32) -> f32 {
+    // The lattice has a place before the picture and two beyond it.
+    let last = vec2f(tile.size_px) - 3.0;
+    let image = settings.image * last + 1.0;
+    var hidden = 0.0;
+    var whole = 0.0;
+    for (var k = 0u; k < settings.steps; k++) {
+        let part = (f32(k) + jitter) / f32(settings.steps);
+        let place = mix(vec2f(id), image, settings.length * part);
+        let weight = pow(max(settings.decay, 1e-6), part);
+        whole += weight;
+        if all(place >= vec2f(0.0)) && all(place <= vec2f(tile.size_px - 1u)) {
+            let at = vec2u(round(place));
+            let i = at.y * tile.size_px.x + at.x;
+            var there = select(0.0, 1.0, seen[i].distance_m >= 0.0);
+            if CLOUDS {
+                there = max(there, dot(clouds_seen[6u * i + 1u] + clouds_seen[6u * i + 4u], vec4f(1.0)));
+            }
+            hidden += weight * there;
+        }
+    }
+    // Clouds have taken their share on average.
+    return settings.strength * select(1.0, shade.direct_left, CLOUDS) * hidden / whole;
 }
 
 @compute @workgroup_size(8, 8)
 fn shafts(@builtin(global_invocation_id) id: vec3u) {
     if LIST {
         if id.x < arrayLength(&directions) && id.y == 0u {
-            look(id.x, directions[id.x].xyz, seen[id.x].distance_m, 0.5);
+            look(id.x, directions[id.x].xyz, seen[id.x].distance_m, 0.5, 0.0);
         }
         return;
     }
@@ -173,7 +219,12 @@ fn shafts(@builtin(global_invocation_id) id: vec3u) {
     let sight = sight_at(camera, PROJECTION, vec2f(at) + 0.5);
     let i = id.y * tile.size_px.x + id.x;
     if sight.seen {
-        look(i, sight.direction, seen[i].distance_m, jitter_of(vec2f(at / i32(tile.stride_px))));
+        let jitter = jitter_of(vec2f(at / i32(tile.stride_px)));
+        var smeared = 0.0;
+        if RADIAL {
+            smeared = hidden_towards_image(id.xy, jitter);
+        }
+        look(i, sight.direction, seen[i].distance_m, jitter, smeared);
     } else {
         lost[i] = vec4f(0.0, 0.0, 0.0, ENDLESS_M);
     }

@@ -8,7 +8,7 @@ use crate::{
     cpu::airglow::{NightLight, night_light},
     error::Error,
     gpu::Gpu,
-    groundscape::{GroundPasses, shafts},
+    groundscape::GroundPasses,
     kernel::Recorder,
     lens::Lens,
     lights::Lights,
@@ -30,6 +30,7 @@ use crate::{
     prepared::{Prepared, Tables, sky_inputs},
     renderer::RendererSettings,
     screen::{PICTURE_BYTES, RADIANCE_BYTES, Screen},
+    shafts::exact_shafts,
     sunlight::Direct,
     uniforms::{AirUniform, Part, Standpoint, TileUniform, ToneUniform, night::AirglowUniform},
 };
@@ -178,7 +179,7 @@ impl Engine {
                 }
             });
             let clouded = cloud_sky.is_some();
-            let shafted = shafts(scene, clouded, order.quality).is_some();
+            let shafted = exact_shafts(scene, clouded, order.quality).is_some();
             let light = CloudLight::new(&tables.stand, &night, &lights, (clouded, shafted));
             let moon_stand = night
                 .moon
@@ -190,7 +191,7 @@ impl Engine {
                 &tables,
                 (scene, &order.assets),
                 (&light, moon_stand),
-                order.quality,
+                (order.quality, Some(size_px)),
             )?;
             let clouds = cloud_sky.zip(textures).map(|(sky, textures)| {
                 self.clouds

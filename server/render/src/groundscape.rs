@@ -9,13 +9,15 @@ use crate::{
     memo::{Fingerprint, Memo},
     passes::{
         aerial::{Aerial, AerialVolumes},
+        cloud_view::CloudView,
         ground_light::{GroundLight, LightInputs},
         ground_shadow::{GroundShadow, ShadowMap},
         ground_sky::GroundSky,
         ground_view::{GroundView, Looks},
-        shafts::{ONE_PLACE, Shafts as ShaftsPass, lattice_for},
+        shafts::{ONE_PLACE, Sees, Shafts as ShaftsPass, lattice_for},
     },
     prepared::Tables,
+    shafts::{ShaftSettings, exact_shafts, radial_shafts},
     uniforms::{
         Part, Standpoint,
         clouds::CloudFrameUniform,
@@ -23,10 +25,10 @@ use crate::{
         narrow, narrow3,
     },
 };
-use glam::DVec3;
+use glam::{DVec3, UVec2};
 use std::sync::Arc;
 use welkin_scene::{
-    Method, Quality, Scene, Shafts,
+    Method, Quality, Scene,
     assets::SceneAssets,
     terrain::{Shadow, ShadowFilter},
 };
@@ -40,37 +42,6 @@ pub(crate) struct GroundPasses {
 
 /// Side of the map by which the air is shaded where surfaces are by rays.
 const AIR_MAP_PX: u32 = 2048;
-
-/// How shafts are looked for.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct ShaftSettings {
-    /// Pixels from one place to the next.
-    grain: u32,
-    /// Places along a ray.
-    pub(crate) steps: u32,
-}
-
-/// Clouds alone draw none into a preview, whose air gets what they leave on average.
-pub(crate) fn shafts(scene: &Scene, clouded: bool, quality: Quality) -> Option<ShaftSettings> {
-    let Some(Shafts::Exact(exact)) = scene.shafts else {
-        return None;
-    };
-    let casts = scene
-        .terrain
-        .as_ref()
-        .is_some_and(|terrain| terrain.shadow().is_some());
-    match quality {
-        Quality::Final if casts || clouded => Some(ShaftSettings {
-            grain: 2,
-            steps: exact.steps,
-        }),
-        Quality::Preview if casts => Some(ShaftSettings {
-            grain: 4,
-            steps: (exact.steps / 3).max(8),
-        }),
-        Quality::Final | Quality::Preview => None,
-    }
-}
 
 /// How the ground hides its light.
 pub(crate) enum Shades {
@@ -121,7 +92,7 @@ pub(crate) struct Groundscape {
     pub(crate) stand: Part,
     pub(crate) shadow: Shades,
     /// How shafts are looked for, if they are.
-    shafts: Option<ShaftSettings>,
+    pub(crate) shafts: Option<ShaftSettings>,
     /// Over a sphere of water.
     pub(crate) wind_m_s: Option<f32>,
     /// True where the shadow is that of the moon.
@@ -169,7 +140,7 @@ impl GroundPasses {
     }
 
     /// None where a scene has no ground but a matt sphere, nor shafts. `light` is the one that casts shadows, `moon` where the moon stands
-    /// if its light counts.
+    /// if its light counts, `size_px` the picture's size, if there is one.
     pub(crate) fn scape(
         &mut self,
         recorder: &mut Recorder<'_>,
@@ -177,9 +148,11 @@ impl GroundPasses {
         tables: &Tables,
         (scene, assets): (&Scene, &SceneAssets),
         (light, moon): (&CloudLight<'_>, Option<Standpoint>),
-        quality: Quality,
+        (quality, size_px): (Quality, Option<UVec2>),
     ) -> Result<Option<Groundscape>, Error> {
-        let shafts = shafts(scene, light.clouded, quality);
+        let towards = light.stand.sun;
+        let radial = size_px.and_then(|px| radial_shafts(scene, light.clouded, px, towards));
+        let shafts = exact_shafts(scene, light.clouded, quality).or(radial);
         let wind_m_s = wind_m_s(scene);
         if scene.terrain.is_none() && shafts.is_none() && wind_m_s.is_none() {
             return Ok(None);
@@ -187,7 +160,6 @@ impl GroundPasses {
         let terrains = self.shapes.of(recorder.gpu, scene, assets)?;
         let by_moon = light.stand.sun != tables.stand.sun;
         let kind = scene.terrain.as_ref().and_then(welkin_scene::Terrain::shadow);
-        let towards = light.stand.sun;
         let shadow = match kind {
             None => Shades::None,
             Some(Shadow::Map(map)) => Shades::Map(
@@ -241,6 +213,8 @@ impl GroundPasses {
 /// The passes of the ground that are run for every tile.
 pub(crate) struct GroundTiles {
     view: GroundView,
+    /// Behind which radial shafts begin.
+    clouds: CloudView,
     shafts: ShaftsPass,
     /// What whole frames lose, for all of their tiles.
     lost: Memo<wgpu::Buffer>,
@@ -251,6 +225,7 @@ impl GroundTiles {
     pub(crate) const fn new() -> Self {
         Self {
             view: GroundView::new(),
+            clouds: CloudView::new(),
             shafts: ShaftsPass::new(),
             lost: Memo::new(4),
             light: GroundLight::new(),
@@ -266,9 +241,9 @@ impl GroundTiles {
         looks: Looks<'_>,
     ) -> wgpu::Buffer {
         let seen = self.view.run(recorder, scape, looks);
-        let lost = scape.shafts.map(|settings| match looks {
+        let lost = scape.shafts.as_ref().map(|settings| match looks {
             Looks::Tile(camera, projection, tile, frame_px) => {
-                let (tile, kept) = lattice_for(tile, frame_px, settings.grain);
+                let (tile, kept) = lattice_for(tile, frame_px, settings.grain(frame_px));
                 let looks = Looks::Tile(camera, projection, tile, frame_px);
                 let made_from = Fingerprint::of((
                     "shafts",
@@ -283,7 +258,15 @@ impl GroundTiles {
                 ));
                 let mut make = || {
                     let seen = self.view.run(recorder, scape, looks);
-                    self.shafts.run(recorder, scape, inputs, (looks, &seen), settings)
+                    let clouds = inputs
+                        .clouds
+                        .filter(|_| settings.is_radial())
+                        .map(|clouds| self.clouds.look(recorder, clouds, (camera, projection), tile));
+                    let sees = Sees {
+                        ground: &seen,
+                        clouds: clouds.as_ref(),
+                    };
+                    self.shafts.run(recorder, scape, inputs, (looks, sees), settings)
                 };
                 let lost = if kept {
                     self.lost.get_or(made_from, make)
@@ -293,7 +276,11 @@ impl GroundTiles {
                 (lost, tile)
             }
             Looks::List(..) => {
-                let lost = self.shafts.run(recorder, scape, inputs, (looks, &seen), settings);
+                let sees = Sees {
+                    ground: &seen,
+                    clouds: None,
+                };
+                let lost = self.shafts.run(recorder, scape, inputs, (looks, sees), settings);
                 (Arc::new(lost), ONE_PLACE)
             }
         });

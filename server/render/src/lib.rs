@@ -37,6 +37,7 @@ mod quadrature;
 mod renderer;
 mod screen;
 mod shader;
+mod shafts;
 mod spread;
 mod starfield;
 mod sunlight;

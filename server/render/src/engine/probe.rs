@@ -5,11 +5,11 @@ use crate::{
     cloud_sky::CloudSky,
     cloudscape::CloudLight,
     error::Error,
-    groundscape::shafts,
     kernel::Recorder,
     lights::Lights,
     night::Night,
     passes::probe::{ProbeInputs, Seen, Sight},
+    shafts::exact_shafts,
     sunlight::{Direct, DiscsLeft},
 };
 use welkin_scene::{Quality, Scene, assets::SceneAssets};
@@ -38,7 +38,7 @@ impl Engine {
             let direct = Direct::new(scene, &tables.stand, &night);
             let lights = Lights::new(scene, &tables.stand, night, &direct, glow, face, None);
             let clouded = cloud_sky.is_some();
-            let shafted = shafts(scene, clouded, Quality::Final).is_some();
+            let shafted = exact_shafts(scene, clouded, Quality::Final).is_some();
             let light = CloudLight::new(&tables.stand, &night, &lights, (clouded, shafted));
             let moonlit = night.moon.filter(|moon| moon.counts > 0.0);
             let ground = self.ground.scape(
@@ -47,7 +47,7 @@ impl Engine {
                 &tables,
                 (scene, assets),
                 (&light, moonlit.map(|moon| moon.stand(&tables.stand))),
-                Quality::Final,
+                (Quality::Final, None),
             )?;
             let clouds = cloud_sky.zip(textures).map(|(sky, textures)| {
                 self.clouds

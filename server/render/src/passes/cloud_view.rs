@@ -60,6 +60,22 @@ impl CloudView {
         }
     }
 
+    /// Places along the ray of each of a tile's pixels, for once.
+    pub(crate) fn look(
+        &mut self,
+        recorder: &mut Recorder<'_>,
+        scape: &Cloudscape,
+        (camera, projection): (&Part, u32),
+        tile: TileUniform,
+    ) -> wgpu::Buffer {
+        let size = bytes_of(tile.size_px);
+        let seen = recorder
+            .gpu
+            .buffer("clouds seen", size, wgpu::BufferUsages::STORAGE);
+        self.march(recorder, scape, (camera, projection), (tile, 0.0), (&seen, None));
+        seen
+    }
+
     /// Nothing is looked for behind what stands on the ground.
     pub(crate) fn run(
         &mut self,
@@ -89,6 +105,29 @@ impl CloudView {
         if whole.1 > 0.0 && pixels_of(tile, frame_px).all(|at| nodes.done[at].load(Relaxed)) {
             return nodes;
         }
+        let before = ground.map(|(_, lit_ground)| lit_ground);
+        self.march(
+            recorder,
+            scape,
+            (camera, projection),
+            (tile, whole.1),
+            (&nodes.buffer, before),
+        );
+        if whole.1 > 0.0 {
+            pixels_of(tile, frame_px).for_each(|at| nodes.done[at].store(true, Relaxed));
+        }
+        nodes
+    }
+
+    fn march(
+        &mut self,
+        recorder: &mut Recorder<'_>,
+        scape: &Cloudscape,
+        (camera, projection): (&Part, u32),
+        (tile, whole): (TileUniform, f64),
+        (nodes, lit_ground): (&wgpu::Buffer, Option<&wgpu::Buffer>),
+    ) {
+        let gpu = recorder.gpu;
         let parts = scape.upload(gpu);
         let (camera, place) = (camera.upload(gpu, "camera"), Part::new(&tile).upload(gpu, "tile"));
         let nothing = gpu.buffer("unused", 16, wgpu::BufferUsages::STORAGE);
@@ -97,20 +136,16 @@ impl CloudView {
             Bind::Buffer(&camera),
             Bind::Buffer(&place),
             Bind::Buffer(&parts.observer),
-            Bind::Buffer(&nodes.buffer),
-            Bind::Buffer(ground.map_or(&nothing, |(_, seen)| seen)),
+            Bind::Buffer(nodes),
+            Bind::Buffer(lit_ground.unwrap_or(&nothing)),
         ]);
         let constants = [
             scape.one_layer(),
-            whole,
+            ("WHOLE_FRAME", whole),
             ("PROJECTION", f64::from(projection)),
-            ("GROUND", f64::from(u8::from(ground.is_some()))),
+            ("GROUND", f64::from(u8::from(lit_ground.is_some()))),
         ];
         let kernel = self.kernels.get(gpu, &constants);
         recorder.dispatch(kernel, &binds, [tile.size_px.x, tile.size_px.y, 1]);
-        if whole.1 > 0.0 {
-            pixels_of(tile, frame_px).for_each(|at| nodes.done[at].store(true, Relaxed));
-        }
-        nodes
     }
 }

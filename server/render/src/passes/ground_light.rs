@@ -131,6 +131,10 @@ impl GroundLight {
             ("MOONLIGHT", flag(inputs.moon_view.is_some())),
             ("MOON_HIDDEN", flag(scape.by_moon)),
             ("SHAFTS", flag(lost.is_some())),
+            (
+                "SHAFTED",
+                flag(scape.shafts.as_ref().is_some_and(|s| !s.is_radial())),
+            ),
             ("WATER", flag(scape.wind_m_s.is_some())),
             ("CLOUDS", flag(inputs.clouds.is_some())),
             ("DOME", flag(inputs.clouds.is_some() && !inputs.followed)),

@@ -2,15 +2,23 @@
 
 use super::{ground_light::LightInputs, ground_view::Looks};
 use crate::{
-    groundscape::{Groundscape, ShaftSettings},
+    groundscape::Groundscape,
     kernel::{Bind, Recorder, Variants},
     shader,
-    uniforms::{Part, TileUniform, clouds::ShadeUniform, ground::ShaftsUniform},
+    shafts::ShaftSettings,
+    uniforms::{Part, TileUniform, clouds::ShadeUniform},
 };
 use glam::UVec2;
 
 pub(crate) struct Shafts {
     kernels: Variants,
+}
+
+/// What stands and hangs before the places of a lattice, or along the directions of a list.
+pub(crate) struct Sees<'a> {
+    pub(crate) ground: &'a wgpu::Buffer,
+    /// Places along each ray, as `lib/cloud_nodes.wgsl` has them; radial shafts alone ask for them.
+    pub(crate) clouds: Option<&'a wgpu::Buffer>,
 }
 
 /// A frame of more places has a lattice for each tile.
@@ -64,8 +72,8 @@ impl Shafts {
         recorder: &mut Recorder<'_>,
         scape: &Groundscape,
         inputs: LightInputs<'_>,
-        (looks, seen): (Looks<'_>, &wgpu::Buffer),
-        shafts: ShaftSettings,
+        (looks, sees): (Looks<'_>, Sees<'_>),
+        shafts: &ShaftSettings,
     ) -> wgpu::Buffer {
         let gpu = recorder.gpu;
         let usage = wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_SRC;
@@ -81,10 +89,11 @@ impl Shafts {
             .map_or_else(|| Part::new(&ShadeUniform::default()), |c| c.shade.clone());
         let shade = shade.upload(gpu, "shade");
         let cloud_frame = Part::new(&scape.frame).upload(gpu, "clouds");
-        let settings = Part::new(&ShaftsUniform { steps: shafts.steps }).upload(gpu, "shafts");
+        let settings = Part::new(&shafts.uniform()).upload(gpu, "shafts");
         let shade_maps = inputs
             .clouds
             .map_or(&inputs.source.view, |scape| &scape.shadow.view);
+        let unused = gpu.buffer("unused", 16, wgpu::BufferUsages::STORAGE);
         let binds = [
             Bind::Buffer(&ground),
             Bind::Buffer(&shadow.0),
@@ -100,11 +109,17 @@ impl Shafts {
             Bind::Buffer(&cloud_frame),
             Bind::Buffer(&settings),
             Bind::Buffer(&directions),
-            Bind::Buffer(seen),
+            Bind::Buffer(sees.ground),
             Bind::Buffer(&lost),
+            Bind::Buffer(sees.clouds.unwrap_or(&unused)),
         ];
         let [casts, _] = scape.shadow.constants();
-        let mut constants = vec![casts, ("CLOUDS", f64::from(u8::from(inputs.clouds.is_some())))];
+        let flag = |on: bool| f64::from(u8::from(on));
+        let mut constants = vec![
+            casts,
+            ("CLOUDS", flag(inputs.clouds.is_some())),
+            ("RADIAL", flag(shafts.is_radial())),
+        ];
         constants.extend(looks.constants());
         let kernel = self.kernels.get(gpu, &constants);
         recorder.dispatch(kernel, &binds, looks.threads());

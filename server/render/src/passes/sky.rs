@@ -176,7 +176,8 @@ impl Sky {
             let tile = (tile, inputs.frame_px);
             let before = inputs.ground.zip(ground.as_ref());
             let nodes = self.clouds.run(recorder, c.scape, camera, tile, before);
-            self.clouds_light.run(recorder, c.scape, camera, tile, &nodes)
+            self.clouds_light
+                .run(recorder, c.scape, camera, tile, (&nodes, ground.as_ref()))
         });
         let (shade, cloud_frame) = inputs.clouds.map_or_else(
             || (Part::new(&ShadeUniform::default()), CloudFrameUniform::default()),

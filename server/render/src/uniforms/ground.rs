@@ -68,9 +68,13 @@ pub(crate) struct SkyPartUniform {
 }
 
 /// `Shafts` of `shafts.wgsl`.
-#[derive(Clone, Copy, Debug, ShaderType)]
+#[derive(Clone, Copy, Debug, Default, ShaderType)]
 pub(crate) struct ShaftsUniform {
     pub(crate) steps: u32,
+    pub(crate) length: f32,
+    pub(crate) decay: f32,
+    pub(crate) strength: f32,
+    pub(crate) image: Vec2,
 }
 
 /// `LightSettings` of `ground_light.wgsl`.

@@ -1,6 +1,6 @@
 //! What stands on the sphere, as others see it.
 
-use crate::scenes::{Rgb, luma, renderer, scene};
+use crate::scenes::{Rgb, luma, renderer, scene, whole};
 use serde_json::{Value, json};
 use std::sync::Arc;
 use welkin_render::Renderer;
@@ -171,6 +171,58 @@ fn a_wall_hides_the_sun_and_draws_a_shaft() {
             (luma(a) / luma(b) - 1.0).abs() < 1e-3,
             "{:?}: {a:?} {b:?}",
             looks[i]
+        );
+    }
+}
+
+/// Before a mountain there is as much air as the way to it is long, under clouds too: a frame shows what the probe tells, which
+/// integrates along each ray.
+#[test]
+fn air_before_a_mountain_under_clouds_is_that_of_the_way() {
+    let wall = assets(200, |_, row| if (116..124).contains(&row) { 1.0 } else { 0.0 });
+    let clouds = json!({"coverage": 0.8, "steps": 256,
+        "layers": [{"kind": "volume", "base_m": 1500, "top_m": 2400, "type": 0.6}]});
+    let all = json!({"camera": {"position_m": [0, 0, 300], "direction": {"azimuth_deg": 180, "elevation_deg": 1}},
+        "sun": {"position": {"azimuth_deg": 150, "elevation_deg": 30}, "disc": false}, "shafts": null, "clouds": clouds,
+        "haze": {"extinction_per_m": 5e-5, "top_m": 3000}, "terrain": field(&json!({"height_m": 1000}))});
+    let scene: Scene = whole(all);
+    let seen = framed(scene.clone(), &wall, [9, 9]);
+    let there = probed(scene, &wall, &[(180.0, 1.0)]);
+    assert!(there.distance_m[0].unwrap() < 3000.0);
+    let (seen, there) = (luma(seen[40]), luma(there.radiance_w_m2_sr[0]));
+    // Tables of the air are good to 1 %; clouds' shadows on the wall change within a pixel.
+    assert!((seen / there - 1.0).abs() < 0.05, "{seen} {there}");
+}
+
+/// Radial shafts darken what lies behind a wall in line with the sun's image, the more the stronger, and nothing on its other
+/// side.
+#[test]
+fn radial_shafts_lead_away_from_the_sun() {
+    let post = assets(200, |column, row| {
+        if (118..122).contains(&row) && column < 100 {
+            1.0
+        } else {
+            0.0
+        }
+    });
+    let view = |shafts: Value| {
+        let all = json!({"camera": {"position_m": [0, 0, 20], "direction": {"azimuth_deg": 180, "elevation_deg": 15}},
+            "sun": {"position": {"azimuth_deg": 180, "elevation_deg": 20}, "disc": false}, "shafts": shafts,
+            "haze": {"extinction_per_m": 5e-5, "top_m": 3000}, "terrain": field(&json!({"height_m": 5000}))});
+        framed(scene(all), &post, [60, 40])
+    };
+    let none = view(Value::Null);
+    let [weak, strong] = [0.3, 0.9].map(|strength| view(json!({"kind": "radial", "strength": strength})));
+    // The wall stands in the west, to the right.
+    let lost = |seen: &[Rgb], x: usize| 1.0 - luma(seen[17 * 60 + x]) / luma(none[17 * 60 + x]);
+    for x in 0..28 {
+        assert!(lost(&strong, x).abs() < 1e-4, "{x}: {}", lost(&strong, x));
+    }
+    for x in 32..42 {
+        let (weak, strong) = (lost(&weak, x), lost(&strong, x));
+        assert!(
+            weak > 0.1 && (strong / weak - 3.0).abs() < 0.01,
+            "{x}: {weak} {strong}"
         );
     }
 }

@@ -39,7 +39,7 @@ pub(super) fn look(gpu: &Gpu, scene: &Scene, assets: &SceneAssets, size_px: UVec
     let camera = (&camera, tables.plan.projection);
     let tile = (tile, size_px);
     let nodes = CloudView::new().run(&mut recorder, &scape, camera, tile, None);
-    let seen = CloudViewLight::new().run(&mut recorder, &scape, camera, tile, &nodes);
+    let seen = CloudViewLight::new().run(&mut recorder, &scape, camera, tile, (&nodes, None));
     recorder.finish(&[], |_| ()).unwrap();
     read_table(gpu, &seen.view, 0)
 }
