@@ -42,6 +42,8 @@ pub(crate) struct GroundPasses {
 
 /// Side of the map by which the air is shaded where surfaces are by rays.
 const AIR_MAP_PX: u32 = 2048;
+/// A preview's map has a quarter of the side, but no less.
+const LEAST_MAP_PX: u32 = 512;
 
 /// How the ground hides its light.
 pub(crate) enum Shades {
@@ -160,13 +162,15 @@ impl GroundPasses {
         let terrains = self.shapes.of(recorder.gpu, scene, assets)?;
         let by_moon = light.stand.sun != tables.stand.sun;
         let kind = scene.terrain.as_ref().and_then(welkin_scene::Terrain::shadow);
+        let side = |size_px: u32| match quality {
+            Quality::Final => size_px,
+            Quality::Preview => (size_px / 4).max(LEAST_MAP_PX),
+        };
+        let mut map = |size_px| self.shadow.run(recorder, &terrains, towards, side(size_px));
         let shadow = match kind {
             None => Shades::None,
-            Some(Shadow::Map(map)) => Shades::Map(
-                self.shadow.run(recorder, &terrains, towards, map.size_px),
-                map.filter,
-            ),
-            Some(Shadow::Rays {}) => Shades::Rays(self.shadow.run(recorder, &terrains, towards, AIR_MAP_PX)),
+            Some(Shadow::Map(of)) => Shades::Map(map(of.size_px), of.filter),
+            Some(Shadow::Rays {}) => Shades::Rays(map(AIR_MAP_PX)),
         };
         let reads = (&*tables.transmittance, &tables.multi_scattering.source);
         let over = |stand: &Standpoint| terrains.stand(stand.sun);
