@@ -101,6 +101,12 @@ struct Shade {
     sky: f32,
 }
 
+// 0 below the lowest clouds, 1 from their middle on.
+fn over_clouds(altitude_m: f32) -> f32 {
+    let middle_m = max(shade.middles_m[0].x, shade.base_m + 1.0);
+    return select(0.0, smoothstep(shade.base_m, middle_m, altitude_m), CLOUDS);
+}
+
 // What clouds leave of the light there.
 fn clouds_leave(place: Place) -> Shade {
     if !CLOUDS {
@@ -109,7 +115,7 @@ fn clouds_leave(place: Place) -> Shade {
     let mu = dot(place.up, cloud_frame.light);
     let depth = shade_depth(shade, shade_maps, linear_clamp, air.radius_m, place.p, place.altitude_m, cloud_frame.light, mu);
     let cosine = max(mu, 0.03);
-    return Shade(slab_transmission(shade.asymmetry, cosine, depth * cosine), select(1.0, shade.diffuse_left, place.altitude_m < shade.base_m));
+    return Shade(slab_transmission(shade.asymmetry, cosine, depth * cosine), mix(shade.diffuse_left, 1.0, over_clouds(place.altitude_m)));
 }
 
 // Phong 1975, with each term a share of the light that falls on the surface: the lobe about the mirror's direction
@@ -121,7 +127,10 @@ fn radiance_by(light: View, first: u32, lit: f32, found: SeenGround, place: Plac
     // The sky by the table where the sun stands as there, and by harmonics for which way the surface faces.
     let level = sky_at(mu);
     let sun_below = max(mu, 0.0) * transmittance_to_space(air, transmittance_table, linear_clamp, 0.0, mu);
-    let bounced = air.ground_albedo * (left.sun * sun_below + left.sky * level);
+    // Over clouds, what comes from below is what they send back: all but what they let through.
+    let over = over_clouds(place.altitude_m);
+    let deck = mix(air.ground_albedo, vec3f(1.0), over * (1.0 - shade.diffuse_left));
+    let bounced = deck * (mix(left.sun, 1.0, over) * sun_below + left.sky * level);
     let tilt = irradiance_share(first, found.normal, place.up);
     let sky = left.sky * level * found.open * tilt + (1.0 - found.open * 0.5 * (1.0 + dot(found.normal, place.up))) * bounced;
     if WATER && found.water {
