@@ -2,13 +2,13 @@
 // variant of this pass: what is seen on a lattice of places, one to a few pixels; under clouds a finer lattice that
 // takes the clear sky from the first; and the pixels between.
 import package::lib::camera::sight_at;
-import package::lib::dome::{BLOCK_CORNERS, BLOCK_SIDE, Dome, dome_cell};
+import package::lib::dome::{Dome, dome_cell, dome_coordinate};
 import package::lib::even::{cell_evenness, is_even_run};
-import package::lib::geometry::{angle_if_near, edge_zenith_angle};
+import package::lib::geometry::{angle_if_near, edge_cosine};
 import package::lib::picture::{Exposure, Tone, packed_pixel, picture_pixel, shown_colour};
 import package::lib::sky_light::{
-    CLOUDS, Light, MOON, PROJECTION, air, camera, cloud_frame, corona_towards, disc_in_pixel, light_towards, moon,
-    moon_in_pixel, radiance_of, view,
+    CLOUDS, Light, MOON, PROJECTION, air, camera, cloud_frame, corona_towards, disc_in_pixel, light_towards, linear_clamp,
+    moon, moon_in_pixel, radiance_of, view,
 };
 
 // 0: every pixel; 1: the lattice; 2: the finer lattice; 3: the pixels between.
@@ -52,7 +52,7 @@ struct Tile {
 @group(0) @binding(25) var<uniform> dome: Dome;
 // Where each block of the dome is kept, and what is seen of clouds at their corners.
 @group(0) @binding(26) var<storage, read> dome_pages: array<u32>;
-@group(0) @binding(27) var<storage, read> dome_seen: array<vec4f>;
+@group(0) @binding(27) var dome_seen: texture_2d<f32>;
 
 // Pixels of a row that share a thread of the last stage, and of which uneven ones may share as SPAN says.
 const BLOCK = 8u;
@@ -62,11 +62,9 @@ fn glaring() -> vec3f {
 }
 
 fn clouds_towards(direction: vec3f) -> vec4f {
-    let cell = dome_cell(dome, direction, view.up, cos(edge_zenith_angle(air.radius_m, view.altitude_m)));
-    let i = dome_pages[cell.page] * BLOCK_CORNERS + cell.corner;
-    let top = mix(dome_seen[i], dome_seen[i + 1u], cell.part.x);
-    let bottom = mix(dome_seen[i + BLOCK_SIDE], dome_seen[i + BLOCK_SIDE + 1u], cell.part.x);
-    return mix(top, bottom, cell.part.y);
+    let cell = dome_cell(dome, direction, view.up, edge_cosine(air.radius_m, view.altitude_m));
+    let at = dome_coordinate(dome_pages[cell.page], cell.place, textureDimensions(dome_seen));
+    return textureSampleLevel(dome_seen, linear_clamp, at, 0.0);
 }
 
 // Before the clouds, if there are any. `place` is the pixel's in the tile.

@@ -28,6 +28,14 @@ fn dome_direction(place: vec2f) -> vec3f {
     return normalize(vec3f(select(p, folded, z < 0.0), z));
 }
 
+// Blocks stand side by side in a texture, so many to a row.
+const BLOCKS_IN_ROW = 32u;
+
+// Where the texel of a block's corner is.
+fn dome_texel(slot: u32, corner: vec2u) -> vec2u {
+    return BLOCK_SIDE * vec2u(slot % BLOCKS_IN_ROW, slot / BLOCKS_IN_ROW) + corner;
+}
+
 // No cell reaches over so many of its sides.
 const APART = 6.0;
 
@@ -35,10 +43,8 @@ const APART = 6.0;
 struct DomeCell {
     // Of the block, in the list of pages.
     page: u32,
-    // Of the first of the cell's corners, in the block.
-    corner: u32,
-    // The way across the cell and down.
-    part: vec2f,
+    // The place in the block, from its first corner's centre on.
+    place: vec2f,
 }
 
 // `up` is the observer's zenith and `horizon` the cosine of the horizon's angle with it: a cell that the horizon crosses
@@ -49,6 +55,10 @@ fn dome_cell(dome: Dome, direction: vec3f, up: vec3f, horizon: f32) -> DomeCell 
     let at = dome_place(direction + away * up) * f32(dome.cells);
     let cell = min(vec2u(at), vec2u(dome.cells - 1u));
     let block = cell / BLOCK_CELLS;
-    let inside = cell - block * BLOCK_CELLS;
-    return DomeCell(block.y * (dome.cells / BLOCK_CELLS) + block.x, inside.y * BLOCK_SIDE + inside.x, at - vec2f(cell));
+    return DomeCell(block.y * (dome.cells / BLOCK_CELLS) + block.x, at - vec2f(block * BLOCK_CELLS));
+}
+
+// The texture's coordinate for a linear sampler; `size` is the texture's.
+fn dome_coordinate(slot: u32, place: vec2f, size: vec2u) -> vec2f {
+    return (vec2f(dome_texel(slot, vec2u(0u))) + place + 0.5) / vec2f(size);
 }

@@ -69,6 +69,11 @@ fn edge_zenith_angle(radius_m: f32, altitude_m: f32) -> f32 {
     return 0.5 * PI + atan(sqrt(horizon_distance_squared(radius_m, altitude_m)) / radius_m);
 }
 
+// Its cosine: of π/2 + atan(d/R) with d² = h(2R+h), so that R² + d² = (R+h)².
+fn edge_cosine(radius_m: f32, altitude_m: f32) -> f32 {
+    return -sqrt(horizon_distance_squared(radius_m, altitude_m)) / (radius_m + altitude_m);
+}
+
 // From its cosine: within 3e-4 at 0 and π, where the cosine is flat, and exact between. Mesa's acos is off by 1e-4.
 fn angle_of_cosine(c: f32) -> f32 {
     return atan2(sqrt(max((1.0 - c) * (1.0 + c), 0.0)), c);

@@ -3,7 +3,7 @@ import package::lib::airglow::{Airglow, airglow_radiance};
 import package::lib::air::Air;
 import package::lib::camera::{Camera, sight_at};
 import package::lib::geometry::{
-    PI, angle_if_near, angle_of_cosine, distance_to_sphere, edge_zenith_angle, horizon_distance_squared,
+    PI, angle_if_near, angle_of_cosine, distance_to_sphere, edge_cosine, edge_zenith_angle, horizon_distance_squared,
 };
 import package::lib::phase::{cornette_shanks_phase, rayleigh_phase};
 import package::lib::cloud_shade::{CloudShade, ground_shaded};
@@ -194,7 +194,7 @@ fn light_towards(direction: vec3f, mu: f32, nu: f32) -> Light {
         let share = select(above, 1.0 - above, ground);
         // A ray that belongs to the other side is turned to the horizon.
         let turned = ground != (met_m >= 0.0);
-        let ray_mu = select(mu, cos(horizon), turned);
+        let ray_mu = select(mu, edge_cosine(air.radius_m, view.altitude_m), turned);
         let ray_angle = select(min(zenith_angle, horizon), zenith_angle, ground);
         let distance_m = select(select(met_m, edge_m, turned), ENDLESS_M, !ground);
         var light: Scattered;

@@ -214,7 +214,7 @@ impl Sky {
         ];
         let dome_uniform = dome.map_or_else(|| Part::new(&DomeUniform::default()), DomeView::uniform);
         let dome_uniform = dome_uniform.upload(gpu, "dome");
-        let (pages, seen) = dome.map_or((&nowhere, &nowhere), |d| (&d.pages, &d.seen));
+        let (pages, seen) = dome.map_or((&nowhere, &inputs.transmittance.view), |d| (&d.pages, &d.seen));
         let flag = |on: bool| f64::from(u8::from(on));
         let mut constants = vec![
             ("METHOD", inputs.plan.method_code()),
@@ -252,7 +252,7 @@ impl Sky {
                 .chain([
                     Bind::Buffer(&dome_uniform),
                     Bind::Buffer(pages),
-                    Bind::Buffer(seen),
+                    Bind::Table(seen),
                 ])
                 .collect();
             recorder.dispatch(kernel, &all, [threads.x, threads.y, 1]);
