@@ -1,8 +1,9 @@
 // The light of the clouds that are seen in the directions of some blocks of the dome.
 import package::lib::cloud_nodes::{FourNodes, Nodes};
-import package::lib::cloud_ray::cloud_ray;
+import package::lib::cloud_ray::{air, cloud_ray, view};
 import package::lib::cloud_seen::clouds_seen;
-import package::lib::dome::{BLOCK_CORNERS, BLOCK_CELLS, BLOCK_SIDE, Dome, dome_direction, dome_texel};
+import package::lib::dome::{BLOCK_CORNERS, BLOCK_CELLS, BLOCK_SIDE, Dome, dome_sight, dome_texel};
+import package::lib::geometry::edge_cosine;
 import package::lib::view_ray::Observer;
 
 @group(0) @binding(18) var<uniform> dome: Dome;
@@ -22,7 +23,8 @@ fn cloud_dome_light(@builtin(global_invocation_id) id: vec3u) {
     let block = blocks[id.y];
     let in_block = vec2u(id.x % BLOCK_SIDE, id.x / BLOCK_SIDE);
     let corner = block.xy * BLOCK_CELLS + in_block;
-    let ray = cloud_ray(observer, dome_direction(vec2f(corner) / f32(dome.cells)), 0.5, 0.0);
+    let direction = dome_sight(dome, corner, view.up, edge_cosine(air.radius_m, view.altitude_m));
+    let ray = cloud_ray(observer, direction, 0.5, 0.0);
     let k = 6u * (block.z * BLOCK_CORNERS + id.x);
     let first = FourNodes(nodes[k], nodes[k + 1u], nodes[k + 2u]);
     let light = clouds_seen(ray, Nodes(first, FourNodes(nodes[k + 3u], nodes[k + 4u], nodes[k + 5u])));

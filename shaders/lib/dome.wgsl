@@ -7,6 +7,8 @@ struct Dome {
     // Of the discs of sun and moon, what clouds leave on average: a disc is smaller than cells.
     sun_left: f32,
     moon_left: f32,
+    // 1 for an observer under all clouds.
+    under_clouds: u32,
 }
 
 // Cells to a side of a block, and corners that it holds.
@@ -39,6 +41,19 @@ fn dome_texel(slot: u32, corner: vec2u) -> vec2u {
 // No cell reaches over so many of its sides.
 const APART = 6.0;
 
+// Over the horizon by so little, a ray no longer meets the ground.
+const LIFTED = 1e-5;
+
+// Where a corner looks. One that is just under the horizon looks over it instead where the sky's clouds are what is seen, so
+// that they run down to the horizon itself. `up` is the observer's zenith and `horizon` the cosine of the horizon's angle
+// with it.
+fn dome_sight(dome: Dome, corner: vec2u, up: vec3f, horizon: f32) -> vec3f {
+    let direction = dome_direction(vec2f(corner) / f32(dome.cells));
+    let under = horizon - dot(direction, up);
+    let lifted = dome.under_clouds == 1u && under > -LIFTED && under < APART / f32(dome.cells);
+    return normalize(direction + select(0.0, under + LIFTED, lifted) * up);
+}
+
 // Where the values about a direction are kept.
 struct DomeCell {
     // Of the block, in the list of pages.
@@ -47,11 +62,13 @@ struct DomeCell {
     place: vec2f,
 }
 
-// `up` is the observer's zenith and `horizon` the cosine of the horizon's angle with it: a cell that the horizon crosses
-// holds both sky and ground, so that from near it one looks up or down to the next.
+// No cell is looked at that holds both sky and ground: from near the horizon one looks up or down to the next. Where corners
+// under the horizon are of the sky, that is one farther down and none up.
 fn dome_cell(dome: Dome, direction: vec3f, up: vec3f, horizon: f32) -> DomeCell {
     let mu = dot(direction, up);
-    let away = select(min(horizon - APART / f32(dome.cells) - mu, 0.0), max(horizon + APART / f32(dome.cells) - mu, 0.0), mu >= horizon);
+    let apart = APART / f32(dome.cells);
+    let under = f32(dome.under_clouds);
+    let away = select(min(horizon - (1.0 + under) * apart - mu, 0.0), max(horizon + (1.0 - under) * apart - mu, 0.0), mu >= horizon);
     let at = dome_place(direction + away * up) * f32(dome.cells);
     let cell = min(vec2u(at), vec2u(dome.cells - 1u));
     let block = cell / BLOCK_CELLS;

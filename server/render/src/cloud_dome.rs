@@ -44,6 +44,8 @@ const REACH_CELLS: f64 = 6.0;
 #[derive(Clone)]
 pub(crate) struct DomeView {
     pub(crate) cells: u32,
+    /// True for an observer under all clouds.
+    pub(crate) under_clouds: bool,
     /// Of the light of sun and moon.
     pub(crate) discs_left: DiscsLeft,
     pub(crate) pages: wgpu::Buffer,
@@ -52,15 +54,16 @@ pub(crate) struct DomeView {
 
 impl DomeView {
     pub(crate) fn uniform(&self) -> Part {
-        uniform(self.cells, self.discs_left)
+        uniform(self.cells, self.under_clouds, self.discs_left)
     }
 }
 
-fn uniform(cells: u32, left: DiscsLeft) -> Part {
+fn uniform(cells: u32, under_clouds: bool, left: DiscsLeft) -> Part {
     Part::new(&DomeUniform {
         cells,
         sun_left: narrow(left.sun),
         moon_left: narrow(left.moon),
+        under_clouds: u32::from(under_clouds),
     })
 }
 
@@ -294,7 +297,7 @@ impl CloudDomes {
                     .is_some_and(|kept| kept.lit_by != Some(light))
             })
             .collect();
-        let uniform = uniform(cells, DiscsLeft::default());
+        let uniform = uniform(cells, scape.under_clouds, DiscsLeft::default());
         if !dark.is_empty() {
             let held = uniform.upload(gpu, "dome");
             let work = |blocks: &[UVec2]| Blocks {
@@ -316,6 +319,7 @@ impl CloudDomes {
         }
         let view = DomeView {
             cells,
+            under_clouds: scape.under_clouds,
             discs_left: DiscsLeft::default(),
             pages: dome.pages(gpu),
             seen: dome.seen.clone(),

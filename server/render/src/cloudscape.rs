@@ -69,6 +69,8 @@ pub(crate) struct Cloudscape {
     pub(crate) shadow: Arc<Table>,
     place_m: Vec3,
     light: Vec3,
+    /// Whether the observer is under all of them.
+    pub(crate) under_clouds: bool,
     one_layer: (&'static str, f64),
     made_from: Fingerprint,
 }
@@ -294,6 +296,7 @@ impl CloudPasses {
         let scene = sky.scene;
         let clouds = Part::new(&sky.uniform(fineness(quality)));
         let shade = sky.shade(&light.stand, scene.camera.position_m);
+        let under_clouds = light.stand.altitude_m < f64::from(shade.base_m);
         let shade = Part::new(&shade);
         let reads = (&*tables.transmittance, &tables.multi_scattering.source);
         let aerial = self
@@ -338,6 +341,7 @@ impl CloudPasses {
             shadow,
             place_m: crate::uniforms::narrow3(scene.camera.position_m),
             light: light.stand.sun.as_vec3(),
+            under_clouds,
             one_layer: sky.one_layer(),
             made_from,
         }
