@@ -1,7 +1,7 @@
 // The light of the clouds that every pixel of one tile sees.
 import package::lib::camera::{Camera, sight_at};
 import package::lib::cloud_nodes::{FourNodes, Nodes};
-import package::lib::cloud_ray::cloud_ray;
+import package::lib::cloud_ray::{cloud_ray, sight_of_clouds};
 import package::lib::cloud_seen::clouds_seen;
 import package::lib::view_ray::Observer;
 
@@ -35,7 +35,7 @@ fn cloud_view_light(@builtin(global_invocation_id) id: vec3u) {
     let sight = sight_at(camera, PROJECTION, vec2f(in_frame) + 0.5);
     var value = vec4f(0.0, 0.0, 0.0, 1.0);
     if sight.seen {
-        let ray = cloud_ray(observer, sight.direction, 0.5, 0.0);
+        let ray = cloud_ray(observer, sight_of_clouds(sight.direction, camera.pixel_angle), 0.5, 0.0);
         var k = 6u * (id.y * tile.size_px.x + id.x);
         if WHOLE_FRAME {
             k = 6u * (in_frame.y * u32(camera.size_px.x) + in_frame.x);

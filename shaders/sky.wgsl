@@ -4,11 +4,11 @@
 import package::lib::camera::sight_at;
 import package::lib::dome::{Dome, dome_cell, dome_coordinate};
 import package::lib::even::{cell_evenness, is_even_run};
-import package::lib::geometry::{angle_if_near, edge_cosine};
+import package::lib::geometry::{angle_if_near, angle_of_cosine, edge_cosine};
 import package::lib::picture::{Exposure, Tone, packed_pixel, picture_pixel, shown_colour};
 import package::lib::sky_light::{
     CLOUDS, Light, MOON, PROJECTION, air, camera, cloud_frame, corona_towards, disc_in_pixel, light_towards, linear_clamp,
-    moon, moon_in_pixel, radiance_of, view,
+    moon, moon_in_pixel, radiance_of, shade, share_above, view,
 };
 
 // 0: every pixel; 1: the lattice; 2: the finer lattice; 3: the pixels between.
@@ -81,6 +81,21 @@ fn with_clouds(behind: vec3f, place: vec2u, direction: vec3f) -> vec3f {
     return max(clouds.a * behind + clouds.rgb, vec3f(0.0));
 }
 
+// A pixel that the horizon crosses, seen from under the clouds: they stand before the sky's share of it alone.
+fn on_horizon(direction: vec3f, above: f32, disc: vec3f, place: vec2u) -> vec3f {
+    let off = edge_cosine(air.radius_m, view.altitude_m) - dot(direction, view.up);
+    let sky = normalize(direction + (off + 0.6 * camera.pixel_angle) * view.up);
+    let ground = normalize(direction + (off - 0.6 * camera.pixel_angle) * view.up);
+    let sky_nu = clamp(dot(sky, view.sun), -1.0, 1.0);
+    let ground_nu = clamp(dot(ground, view.sun), -1.0, 1.0);
+    let behind = radiance_of(light_towards(sky, dot(sky, view.up), sky_nu), sky_nu, disc);
+    var below = radiance_of(light_towards(ground, dot(ground, view.up), ground_nu), ground_nu, vec3f(0.0));
+    if DOME {
+        below = with_clouds(below, place, ground);
+    }
+    return mix(below, with_clouds(behind, place, sky), above);
+}
+
 // The tile's pixels from `begin` to `end` of a row, which may share the light at the first and the last of SPAN from
 // `first` on.
 fn write_run(first: vec2u, begin: u32, end: u32) {
@@ -127,7 +142,14 @@ fn write_run(first: vec2u, begin: u32, end: u32) {
             } else {
                 light = light_towards(sight.direction, dot(sight.direction, view.up), nu);
             }
-            var seen = with_clouds(radiance_of(light, nu, select(disc, vec3f(0.0), DOME)), vec2u(x, y), sight.direction);
+            let own = select(disc, vec3f(0.0), DOME);
+            var seen: vec3f;
+            let above = share_above(angle_of_cosine(dot(sight.direction, view.up)));
+            if CLOUDS && above > 0.0 && above < 1.0 && view.altitude_m < shade.base_m {
+                seen = on_horizon(sight.direction, above, own, vec2u(x, y));
+            } else {
+                seen = with_clouds(radiance_of(light, nu, own), vec2u(x, y), sight.direction);
+            }
             if DOME {
                 seen += light.left * disc;
             }

@@ -132,6 +132,12 @@ fn one_or(count: u32) -> u32 {
     return count;
 }
 
+// Of all bands and sheets; each stand in the order of their heights.
+fn lowest_cloud_m() -> f32 {
+    let band_m = select(1e9, clouds.bands[0].base_m, clouds.band_count > 0u);
+    return min(band_m, select(1e9, clouds.sheets[0].height_m, clouds.sheet_count > 0u));
+}
+
 struct Weather {
     coverage: f32,
     cloud_type: f32,

@@ -1,6 +1,8 @@
 // The sphere of directions as a square (Engelhardt and Dachsbacher 2008), of which blocks are kept where somebody looks.
 // Values stand at the corners of cells, so that every block holds all that its cells are interpolated from.
 
+import package::lib::geometry::over_horizon;
+
 struct Dome {
     // Cells to a side of the square.
     cells: u32,
@@ -41,17 +43,12 @@ fn dome_texel(slot: u32, corner: vec2u) -> vec2u {
 // No cell reaches over so many of its sides.
 const APART = 6.0;
 
-// Over the horizon by so little, a ray no longer meets the ground.
-const LIFTED = 1e-5;
-
 // Where a corner looks. One that is just under the horizon looks over it instead where the sky's clouds are what is seen, so
 // that they run down to the horizon itself. `up` is the observer's zenith and `horizon` the cosine of the horizon's angle
 // with it.
 fn dome_sight(dome: Dome, corner: vec2u, up: vec3f, horizon: f32) -> vec3f {
-    let direction = dome_direction(vec2f(corner) / f32(dome.cells));
-    let under = horizon - dot(direction, up);
-    let lifted = dome.under_clouds == 1u && under > -LIFTED && under < APART / f32(dome.cells);
-    return normalize(direction + select(0.0, under + LIFTED, lifted) * up);
+    let reach = select(0.0, APART / f32(dome.cells), dome.under_clouds == 1u);
+    return over_horizon(dome_direction(vec2f(corner) / f32(dome.cells)), up, horizon, reach);
 }
 
 // Where the values about a direction are kept.
