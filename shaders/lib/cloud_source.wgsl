@@ -114,9 +114,12 @@ fn source_at(index: u32, p: vec3f, altitude_m: f32, extinction_per_m: f32, aroun
     }
     let over = shade_depth(shade, shade_maps, linear_clamp, clouds.radius_m, p, band.top_m, view.sun, mu_s);
     let h = clamp((altitude_m - band.base_m) / thickness, 0.0, 1.0);
-    // Even light comes by the shortest way out, not straight up: a share of the thickness on either side.
-    let up = 0.5 * extinction_per_m * (1.0 - h) * thickness;
-    let down = 0.5 * extinction_per_m * h * thickness;
+    // Into a heap even light comes by the shortest way, not straight down: a share of the thickness on either side. Into a
+    // deck there is no other way than the light's own, less its slant.
+    let heap = 0.5 * extinction_per_m * thickness * vec2f(1.0 - h, h);
+    let deck = abs(light_cosine(mu_s)) * select(vec2f(way.behind, way.before), vec2f(way.before, way.behind), mu_s >= 0.0);
+    let up = mix(deck.x, heap.x, band.leak);
+    let down = mix(deck.y, heap.y, band.leak);
     let direct = around.sun * exp(-over) * lit_source(lobes, way.before, way.behind, band.leak);
     return clouds.albedo * (direct + around.above * ambient_source(up, down) + around.below * ambient_source(down, up));
 }
