@@ -91,7 +91,7 @@ fn depth_beside(index: u32, band: CloudBand, p: vec3f, altitude_m: f32, mu_s: f3
     let all = clouds.light_steps >= ALL_LIGHT_STEPS;
     let reach_m = min(out_m, select(REACH / clouds.base_inverse_scale_per_m, out_m, all));
     var depth = depth_within(band, p, altitude_m, towards, side * mu_s, clouds.light_steps, reach_m);
-    for (var beyond = reach_m < out_m; beyond; beyond = false) {
+    if reach_m < out_m {
         let there_m = altitude_after(clouds.radius_m, altitude_m, side * mu_s, reach_m);
         let there = light_depth(index, band, p + reach_m * towards, there_m, mu_s);
         depth += select(there.behind, there.before, side > 0.0);
@@ -105,18 +105,21 @@ fn source_at(index: u32, p: vec3f, altitude_m: f32, extinction_per_m: f32, aroun
     let mu_s = around.mu_s;
     let thickness = band.top_m - band.base_m;
     var way: LightDepth;
-    for (var far = clouds.light_steps == 0u; far; far = false) {
+    if clouds.light_steps == 0u {
         way = light_depth(index, band, p, altitude_m, mu_s);
     }
-    for (var close = clouds.light_steps > 0u; close; close = false) {
+    if clouds.light_steps > 0u {
         way.before = depth_beside(index, band, p, altitude_m, mu_s, 1.0);
         way.behind = depth_beside(index, band, p, altitude_m, mu_s, -1.0);
     }
     let over = shade_depth(shade, shade_maps, linear_clamp, clouds.radius_m, p, band.top_m, view.sun, mu_s);
     let h = clamp((altitude_m - band.base_m) / thickness, 0.0, 1.0);
-    // Even light comes by the shortest way out, not straight up: a share of the thickness on either side.
-    let up = 0.5 * extinction_per_m * (1.0 - h) * thickness;
-    let down = 0.5 * extinction_per_m * h * thickness;
+    // Into a heap even light comes by the shortest way, not straight down: a share of the thickness on either side. Into a
+    // deck there is no other way than the light's own, less its slant.
+    let heap = 0.5 * extinction_per_m * thickness * vec2f(1.0 - h, h);
+    let deck = abs(light_cosine(mu_s)) * select(vec2f(way.behind, way.before), vec2f(way.before, way.behind), mu_s >= 0.0);
+    let up = mix(deck.x, heap.x, band.leak);
+    let down = mix(deck.y, heap.y, band.leak);
     let direct = around.sun * exp(-over) * lit_source(lobes, way.before, way.behind, band.leak);
     return clouds.albedo * (direct + around.above * ambient_source(up, down) + around.below * ambient_source(down, up));
 }

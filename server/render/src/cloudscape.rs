@@ -71,6 +71,8 @@ pub(crate) struct Cloudscape {
     pub(crate) base_m: f32,
     place_m: Vec3,
     light: Vec3,
+    /// Whether the observer is under all of them.
+    pub(crate) under_clouds: bool,
     one_layer: (&'static str, f64),
     made_from: Fingerprint,
 }
@@ -313,6 +315,7 @@ impl CloudPasses {
             shade.direct_left = 1.0;
         }
         let base_m = shade.base_m;
+        let under_clouds = light.stand.altitude_m < f64::from(shade.base_m);
         let shade = Part::new(&shade);
         let reads = (&*tables.transmittance, &tables.multi_scattering.source);
         let aerial = self
@@ -358,6 +361,7 @@ impl CloudPasses {
             base_m,
             place_m: crate::uniforms::narrow3(scene.camera.position_m),
             light: light.stand.sun.as_vec3(),
+            under_clouds,
             one_layer: sky.one_layer(),
             made_from,
         }
