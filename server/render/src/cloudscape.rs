@@ -24,6 +24,7 @@ use crate::{
     uniforms::{
         Part, Standpoint,
         clouds::{CloudFrameUniform, ShadowUniform},
+        narrow,
     },
 };
 use glam::Vec3;
@@ -221,6 +222,15 @@ const fn shadow_steps(quality: Quality) -> (f32, f32) {
     }
 }
 
+/// How many times more steps the light's way takes between two heights under a low sun: it is that much longer, and what is
+/// stepped over there stands as stripes on the clouds. No more than four.
+fn slant(sun_cosine: f64) -> f32 {
+    narrow((LEVEL_COSINE / sun_cosine.abs()).clamp(1.0, 4.0))
+}
+
+/// From this cosine on light counts as low.
+const LEVEL_COSINE: f64 = 0.3;
+
 /// How fine the steps are against those that the scene asks for.
 const fn fineness(quality: Quality) -> f64 {
     match quality {
@@ -322,11 +332,11 @@ impl CloudPasses {
             .aerial
             .run(recorder, &tables.air, &light.stand, reads, tables.plan, quality);
         let (share, most_steps) = shadow_steps(quality);
-        let step_m = share * sky.noise_scale_m();
+        let slant = slant(light.stand.up.dot(light.stand.sun));
         let towards = ShadowUniform {
             light: light.stand.sun.as_vec3(),
-            step_m,
-            most_steps,
+            step_m: share * sky.noise_scale_m() / slant,
+            most_steps: most_steps * slant,
         };
         let shadow = self.shadow.run(
             recorder,
