@@ -267,7 +267,7 @@ fn ground_is_measured_with_shadows_and_shafts_and_without() {
     let (report, _) = measured_with(
         "ground",
         "no/such/folder",
-        &["--tables".as_ref(), "final-approach,ground".as_ref()],
+        &["--tables".as_ref(), "final-approach".as_ref()],
     );
     assert_eq!(report["faults"], json!([]));
     let rows = report["rows"].as_array().unwrap();
@@ -279,8 +279,8 @@ fn ground_is_measured_with_shadows_and_shafts_and_without() {
         "nothing-changed",
         "air-changed",
     ];
-    // Twelve setups of the thesis' and eight of our own.
-    assert_eq!(rows.len(), (12 + 8) * works.len());
+    // Two places, two meshes and three lights; the mountains by seed of the other table take seconds a process to make.
+    assert_eq!(rows.len(), 2 * 2 * 3 * works.len());
     let ran = |row: &Value, pass: &str| {
         let passes = row["passes"].as_array().unwrap();
         passes.iter().any(|ran| ran["pass"] == pass)
@@ -321,10 +321,7 @@ fn rows_beside<'a>(report: &'a Value, row: &Value) -> &'a Value {
     let all = report["rows"].as_array().unwrap().iter();
     let mut plain = all.filter(|other| {
         let same = |field| other[field] == row[field];
-        other["light"] == "plain"
-            && ["table", "work", "quality", "relief", "place"]
-                .into_iter()
-                .all(same)
+        other["light"] == "plain" && ["table", "work", "relief", "place"].into_iter().all(same)
     });
     plain.next().unwrap()
 }
@@ -338,7 +335,7 @@ fn ground_is_measured_by_the_size_of_its_shadow_map_and_of_its_mesh() {
     );
     assert_eq!(report["faults"], json!([]));
     let rows = report["rows"].as_array().unwrap();
-    let of = |table: &str| rows.iter().filter(move |row| row["table"] == table);
+    let of = |table: &'static str| rows.iter().filter(move |row| row["table"] == table);
     let sizes: Vec<_> = of("shadow-maps")
         .map(|row| {
             (

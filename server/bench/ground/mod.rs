@@ -3,6 +3,7 @@
 mod mesh;
 mod mountains;
 mod scenes;
+mod tables;
 mod town;
 
 use super::{
@@ -11,26 +12,17 @@ use super::{
     viewer::{AIR_TABLES, CAMERA_PASSES, Viewer, forbidden},
 };
 use crate::{commands::Failure, settings::Settings};
-use scenes::{Light, Place, Relief, Staged};
-use serde::{Deserialize, Serialize};
-use serde_json::{Map, Value, json};
+use scenes::{Light, Staged};
+use serde_json::{Value, json};
+use tables::{FEW_TRIANGLES, OWN_SIZE, THESIS_SIZES, Table};
 use welkin_scene::{
     Direction, Quality, Scene, SunPosition,
     renderer::Render,
     terrain::{Shadow, ShadowMap, Terrain},
 };
 
-/// Those of the thesis.
-const THESIS_SIZES: [Size; 3] = [Size::new(800, 600), Size::new(1280, 720), Size::new(1920, 1080)];
-/// Of the other tables.
-const OWN_SIZE: Size = Size::new(900, 600);
-
 /// Of the shadow map, pixels a side.
 const MAP_SIZES: [u32; 5] = [512, 1024, 2048, 4096, 8192];
-
-/// Squares of even numbers, see [`scenes::of_triangles`].
-const FEW_TRIANGLES: u32 = 99_856;
-const MANY_TRIANGLES: u32 = 1_000_000;
 
 /// What a frame with shadows and shafts may cost over the same without.
 const MOST_FOR_LIGHT: f64 = 2.0;
@@ -41,20 +33,6 @@ const MOST_FOR_TRIANGLES: f64 = 1.5;
 const SHADOW: &str = "ground_shadow";
 /// What is seen of the ground in a tile.
 const VIEW: [&str; 3] = ["ground_view", "ground_light", "shafts"];
-
-/// What one setup measures.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-enum Table {
-    /// Iniesta and Pérez 2015, table 6.1, the last block and what it adds to the one before.
-    FinalApproach,
-    /// What each kind of change costs, in mountains by seed.
-    Ground,
-    /// By the size of the shadow map.
-    ShadowMaps,
-    /// By the number of triangles.
-    Triangles,
-}
 
 pub(super) struct Ground;
 
@@ -138,58 +116,6 @@ impl Case for Ground {
             Table::ShadowMaps => shadow_maps(staged, setup.size, settings),
             _ => changes(staged, (setup.size, quality), settings),
         }
-    }
-}
-
-impl Table {
-    const ALL: [Self; 4] = [
-        Self::FinalApproach,
-        Self::Ground,
-        Self::ShadowMaps,
-        Self::Triangles,
-    ];
-
-    const fn sizes(self) -> &'static [Size] {
-        match self {
-            Self::FinalApproach => &THESIS_SIZES,
-            Self::Ground | Self::ShadowMaps | Self::Triangles => &[OWN_SIZE],
-        }
-    }
-
-    /// Of each setup at a size.
-    fn parameters(self) -> Vec<Map<String, Value>> {
-        let all = match self {
-            Self::FinalApproach => {
-                let mut all = Vec::new();
-                for place in [Place::Ground, Place::Space] {
-                    for relief in [Relief::Mountains, Relief::Town] {
-                        for light in [Light::Plain, Light::Shadows, Light::ShadowsAndShafts] {
-                            all.push(json!({"relief": relief, "place": place, "light": light}));
-                        }
-                    }
-                }
-                all
-            }
-            Self::Ground => {
-                let mut all = Vec::new();
-                for quality in [Quality::Preview, Quality::Final] {
-                    for light in Light::ALL {
-                        all.push(json!({"quality": quality, "light": light}));
-                    }
-                }
-                all
-            }
-            Self::ShadowMaps => vec![json!({})],
-            Self::Triangles => [FEW_TRIANGLES, MANY_TRIANGLES]
-                .map(|count| json!({"triangles": count}))
-                .into(),
-        };
-        let named = all.into_iter().map(|parameters| {
-            let mut named = Map::from_iter([("table".to_owned(), json!(self))]);
-            named.extend(parameters.as_object().cloned().unwrap_or_default());
-            named
-        });
-        named.collect()
     }
 }
 
@@ -294,5 +220,70 @@ fn account(renderer: &dyn Render, works: Vec<Work>) -> Account {
         device: renderer.device(),
         works,
         peak_memory_bytes: peak_memory_bytes(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, reason = "tests fail by panicking")]
+
+    use super::*;
+    use scenes::{Place, Relief};
+    use tables::MANY_TRIANGLES;
+
+    #[test]
+    fn each_setup_names_a_table_and_is_compared_with_a_plainer_one_that_is_measured_too() {
+        let setups = Ground.setups(None);
+        // Twelve of the thesis' at three sizes, eight, one and two of our own.
+        assert_eq!(setups.len(), 3 * 12 + 8 + 1 + 2);
+        let mut limited = 0;
+        for setup in &setups {
+            let table: Table = setup.parameter("table").unwrap();
+            assert!(Ground.tables().contains(&setup.parameter("table").unwrap()));
+            let plainer = Ground.plainer(setup);
+            if let Some(plainer) = &plainer {
+                assert!(setups.contains(plainer), "{plainer:?}");
+                assert_eq!(plainer.size, setup.size);
+                assert!(Ground.plainer(plainer).is_none(), "{plainer:?}");
+            }
+            let cost = Ground.limits(setup, "camera-turned").cost;
+            assert!(cost.is_none() || plainer.is_some(), "{setup:?}");
+            assert_eq!(
+                cost == Some(MOST_FOR_TRIANGLES),
+                cost.is_some() && table == Table::Triangles
+            );
+            assert_eq!(Ground.limits(setup, "sun-moved"), Limits::default());
+            limited += u32::from(cost.is_some());
+        }
+        assert_eq!(limited, 3 * 4 + 2 + 1);
+    }
+
+    #[test]
+    fn meshes_have_as_many_triangles_as_the_rows_say() {
+        for count in [FEW_TRIANGLES, MANY_TRIANGLES] {
+            let staged = scenes::of_triangles(count);
+            let model = &staged.assets.meshes["relief"];
+            assert_eq!(model.triangles.len(), usize::try_from(count).unwrap());
+        }
+        let thesis = scenes::thesis(Relief::Mountains, Place::Ground, Light::Plain);
+        assert_eq!(thesis.assets.meshes["relief"].triangles.len(), 97_650);
+    }
+
+    #[test]
+    fn each_scene_is_one_that_may_be_ordered() {
+        let mut staged = vec![scenes::of_triangles(FEW_TRIANGLES)];
+        for light in Light::ALL {
+            staged.push(scenes::by_seed(light));
+            for place in [Place::Ground, Place::Space] {
+                staged.push(scenes::thesis(Relief::Town, place, light));
+            }
+        }
+        for Staged { scene, assets } in staged {
+            let text = serde_json::to_string(&scene).unwrap();
+            assert_eq!(Scene::from_json(&text).unwrap(), scene);
+            for reference in scene.asset_references() {
+                assert!(assets.meshes.contains_key(reference.name));
+            }
+        }
     }
 }

@@ -24,7 +24,7 @@ pub(super) fn presets() -> Vec<Preset> {
             description: "The sun comes through a gap between two mountains; its light stands in the haze, and theirs is the \
                           shadow.",
             scene: Scene {
-                camera: standing([2_000.0, 800.0, 400.0], normal(87.0, 4.0)),
+                camera: standing([2_000.0, 800.0, 400.0], normal(87.0, 6.0)),
                 sun: sun(81.0, 7.6),
                 clouds: None,
                 haze: Some(Haze {
@@ -35,9 +35,8 @@ pub(super) fn presets() -> Vec<Preset> {
                 terrain: Some(Terrain::Heightfield(alps())),
                 // As one would open up for a slope in the shade, in the contrast of a slide.
                 display: Display {
-                    exposure: Exposure::Auto { compensation_ev: 0.9 },
                     tone_curve: ToneCurve::Aces,
-                    ..Display::default()
+                    ..opened(1.1)
                 },
                 ..Scene::default()
             },
@@ -50,6 +49,7 @@ pub(super) fn presets() -> Vec<Preset> {
                 camera: standing([-9_000.0, -3_000.0, 3_300.0], normal(60.0, -11.0)),
                 sun: sun(150.0, 42.0),
                 clouds: Some(clouds(0.35, vec![Layer::Volume(volume(2_000.0, 2_800.0, 0.8))])),
+                display: opened(0.4),
                 terrain: Some(Terrain::Heightfield(alps())),
                 ..Scene::default()
             },
@@ -62,6 +62,7 @@ pub(super) fn presets() -> Vec<Preset> {
                 camera: standing([-9_000.0, -3_000.0, 2_300.0], normal(60.0, -7.0)),
                 sun: sun(170.0, 30.0),
                 clouds: Some(clouds(0.45, vec![Layer::Volume(volume(700.0, 1_300.0, 0.4))])),
+                display: opened(0.7),
                 terrain: Some(Terrain::Heightfield(alps())),
                 ..Scene::default()
             },
@@ -153,6 +154,14 @@ fn from(height_m: f64, camera: Camera) -> Camera {
 
 fn standing(position_m: [f64; 3], camera: Camera) -> Camera {
     Camera { position_m, ..camera }
+}
+
+/// So many stops more light than the meter says.
+fn opened(compensation_ev: f64) -> Display {
+    Display {
+        exposure: Exposure::Auto { compensation_ev },
+        ..Display::default()
+    }
 }
 
 /// Narrower than [`looking`]: far mountains are large.
