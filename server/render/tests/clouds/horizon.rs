@@ -40,10 +40,12 @@ fn first_of_sky(rows: &[f64]) -> usize {
 fn a_previews_clouds_run_down_to_the_horizon_as_those_of_a_final_frame() {
     let [preview, last] = [Quality::Preview, Quality::Final].map(|quality| rows(&seen(quality)));
     let sky = first_of_sky(&last);
+    // A preview's maps of light are coarse, so that such a deck is up to a sixth brighter: what counts is that this does not
+    // change towards the horizon. Its cells are 2.6 pixels high here, which in the steepest rows makes a tenth.
+    let higher = preview[sky - 30] / last[sky - 30];
     for row in sky - 30..sky {
-        let ratio = preview[row] / last[row];
-        // Preview's maps of light are coarser than final's: 8 % in the mean of such a deck.
-        assert!((0.87..1.15).contains(&ratio), "row {row} of {sky}: {ratio}");
+        let ratio = preview[row] / last[row] / higher;
+        assert!((0.88..1.12).contains(&ratio), "row {row} of {sky}: {ratio}");
     }
 }
 
