@@ -86,14 +86,15 @@ fn with_clouds(behind: vec3f, place: vec2u, direction: vec3f) -> vec3f {
 }
 
 // A pixel that the horizon crosses, seen from under the clouds: they stand before the sky's share of it alone.
-fn on_horizon(direction: vec3f, above: f32, disc: vec3f, place: vec2u) -> vec3f {
+fn on_horizon(direction: vec3f, above: f32, disc: vec3f, lost: vec3f, place: vec2u) -> vec3f {
     let off = edge_cosine(air.radius_m, view.altitude_m) - dot(direction, view.up);
     let sky = normalize(direction + (off + 0.6 * camera.pixel_angle) * view.up);
     let ground = normalize(direction + (off - 0.6 * camera.pixel_angle) * view.up);
     let sky_nu = clamp(dot(sky, view.sun), -1.0, 1.0);
     let ground_nu = clamp(dot(ground, view.sun), -1.0, 1.0);
-    let behind = radiance_of(light_towards(sky, dot(sky, view.up), sky_nu), sky_nu, disc);
-    var below = radiance_of(light_towards(ground, dot(ground, view.up), ground_nu), ground_nu, vec3f(0.0));
+    let behind = max(radiance_of(light_towards(sky, dot(sky, view.up), sky_nu), sky_nu, disc) - lost, vec3f(0.0));
+    let clear = radiance_of(light_towards(ground, dot(ground, view.up), ground_nu), ground_nu, vec3f(0.0));
+    var below = max(clear - lost, vec3f(0.0));
     if DOME {
         below = with_clouds(below, place, ground);
     }
@@ -167,7 +168,7 @@ fn write_run(first: vec2u, begin: u32, end: u32) {
             var seen: vec3f;
             let above = share_above(angle_of_cosine(dot(sight.direction, view.up)));
             if CLOUDS && above > 0.0 && above < 1.0 && view.altitude_m < shade.base_m {
-                seen = max(on_horizon(sight.direction, above, own, vec2u(x, y)) - lost, vec3f(0.0));
+                seen = on_horizon(sight.direction, above, own, lost, vec2u(x, y));
             } else {
                 seen = with_clouds(max(radiance_of(light, nu, own) - lost, vec3f(0.0)), vec2u(x, y), sight.direction);
             }
