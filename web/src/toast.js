@@ -2,8 +2,8 @@
 import { byId, h } from './dom.js';
 
 const SHOWN_MS = 6000;
-/** What can be undone is there for longer. */
-const ACTION_MS = 30_000;
+/** Faults, and what can be undone, are there for longer. */
+const LASTING_MS = 30_000;
 const MOST = 3;
 
 /** Says something to a screen reader alone. @param {string} message */
@@ -25,5 +25,5 @@ export function toast(message, { bad = false, action } = {}) {
   for (const same of list.children) if (same.firstChild?.textContent === message) same.remove();
   while (list.children.length >= MOST) list.firstChild?.remove();
   list.append(element);
-  setTimeout(() => element.remove(), action ? ACTION_MS : bad ? 2 * SHOWN_MS : SHOWN_MS);
+  setTimeout(() => element.remove(), action || bad ? LASTING_MS : SHOWN_MS);
 }
