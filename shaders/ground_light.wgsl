@@ -258,7 +258,7 @@ const ENDLESS_M = 1e12;
 fn write(i: u32, direction: vec3f, pixel: vec2u) {
     let found = unpack_ground(seen[i]);
     var value = vec4f(0.0, 0.0, 0.0, -1.0);
-    for (var there = found.distance_m >= 0.0; there; there = false) {
+    if found.distance_m >= 0.0 {
         value = vec4f(radiance_towards(direction, found), found.distance_m);
     }
     if SHAFTS {

@@ -119,10 +119,10 @@ fn lost_along(direction: vec3f, end_m: f32, jitter: f32, smeared: f32) -> vec3f 
     let from_m = max(reach.x, first_m);
     let to_m = min(min(reach.y, end_m), min(in_air.y, from_m + FARTHEST_M));
     var sum = vec3f(0.0);
-    for (var there = to_m > from_m; there; there = false) {
+    if to_m > from_m {
         // What the air lets through before the first step.
         var left = vec3f(1.0);
-        for (var before = from_m > first_m; before; before = false) {
+        if from_m > first_m {
             var depth = vec3f(0.0);
             for (var k = 0u; k < 8u; k++) {
                 let h = altitude_after(air.radius_m, h0, mu, mix(first_m, from_m, (f32(k) + 0.5) / 8.0));
@@ -147,8 +147,7 @@ fn lost_along(direction: vec3f, end_m: f32, jitter: f32, smeared: f32) -> vec3f 
             }
             let c = coefficients_at(air, h, h < air.haze_top_m);
             let passed = exp(-c.extinction_per_m * dt);
-            // A loop of one round at most: a software device runs what an `if` leaves out.
-            for (var dark = hidden > 0.0; dark; dark = false) {
+            if hidden > 0.0 {
                 let light = transmittance_to_space(air, transmittance_table, linear_clamp, h, mu_light);
                 let mean = left * 0.5 * (1.0 + passed);
                 sum += hidden * dt * mean * light * (rayleigh * c.rayleigh_per_m + mie * c.mie_per_m);

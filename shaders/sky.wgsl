@@ -2,7 +2,7 @@
 // variant of this pass: what is seen on a lattice of places, one to a few pixels; under clouds a finer lattice that
 // takes the clear sky from the first; and the pixels between.
 import package::lib::camera::sight_at;
-import package::lib::dome::{Dome, dome_cell, dome_coordinate};
+import package::lib::dome::{BLOCK_CORNERS, BLOCK_SIDE, Dome, dome_cell, dome_coordinate};
 import package::lib::even::{cell_evenness, is_even_run};
 import package::lib::geometry::{angle_if_near, angle_of_cosine, edge_cosine};
 import package::lib::picture::{Exposure, Tone, packed_pixel, picture_pixel, shown_colour};
@@ -31,6 +31,8 @@ override CURVE: u32 = 3u;
 override DOME: bool = false;
 // True where more than the sphere stands on the ground, or shafts fall through the air.
 override GROUND: bool = false;
+// True where the dome's clouds may hang before what stands on the ground.
+override BEFORE_GROUND: bool = false;
 
 struct Tile {
     origin_px: vec2u,
@@ -57,6 +59,8 @@ struct Tile {
 @group(0) @binding(27) var dome_seen: texture_2d<f32>;
 // Of each pixel of the tile: radiance and distance of what stands on the ground; or what the sky loses to shafts, and -1.
 @group(0) @binding(28) var<storage, read> lit_ground: array<vec4f>;
+// Six vectors a corner of the dome, as `Nodes` has them.
+@group(0) @binding(29) var<storage, read> dome_nodes: array<vec4f>;
 
 // Pixels of a row that share a thread of the last stage, and of which uneven ones may share as SPAN says.
 const BLOCK = 8u;
@@ -69,6 +73,29 @@ fn clouds_towards(direction: vec3f) -> vec4f {
     let cell = dome_cell(dome, direction, view.up, edge_cosine(air.radius_m, view.altitude_m));
     let at = dome_coordinate(dome_pages[cell.page], cell.place, textureDimensions(dome_seen));
     return textureSampleLevel(dome_seen, linear_clamp, at, 0.0);
+}
+
+// Of the clouds in a direction what hangs before the ground: as large a part as of their places' shares. A place stands for
+// some depth about it, so that no hard edge shows where a slope rises through a cloud.
+fn clouds_before(direction: vec3f, ground_m: f32) -> vec4f {
+    let cell = dome_cell(dome, direction, view.up, edge_cosine(air.radius_m, view.altitude_m));
+    let corner = min(vec2u(max(cell.place, vec2f(0.0))), vec2u(BLOCK_SIDE - 2u));
+    let right = clamp(cell.place - vec2f(corner), vec2f(0.0), vec2f(1.0));
+    let slot = dome_pages[cell.page];
+    let depth_m = 50.0 + 0.05 * ground_m;
+    var near = 0.0;
+    var whole = 0.0;
+    for (var k = 0u; k < 8u; k++) {
+        let at = vec2u((k >> 1u) & 1u, k >> 2u);
+        let weights = mix(1.0 - right, right, vec2f(at));
+        let i = 6u * (slot * BLOCK_CORNERS + (corner.y + at.y) * BLOCK_SIDE + corner.x + at.x) + 3u * (k & 1u);
+        let share = weights.x * weights.y * dome_nodes[i + 1u];
+        whole += dot(share, vec4f(1.0));
+        near += dot(share, clamp(0.5 + (ground_m - dome_nodes[i]) / depth_m, vec4f(0.0), vec4f(1.0)));
+    }
+    let all = textureSampleLevel(dome_seen, linear_clamp, dome_coordinate(slot, cell.place, textureDimensions(dome_seen)), 0.0);
+    let part = near / max(whole, 1e-6);
+    return vec4f(part * all.rgb, 1.0 - part * (1.0 - all.a));
 }
 
 // Before the clouds, if there are any. `place` is the pixel's in the tile.
@@ -131,13 +158,17 @@ fn write_run(first: vec2u, begin: u32, end: u32) {
             before = lit_ground[i];
         }
         if sight.seen && before.w >= 0.0 {
-            // Where there is a dome, no cloud stands before the ground.
             var seen = before.rgb;
             if !DOME {
                 seen = with_clouds(seen, vec2u(x, y), sight.direction);
+            } else if BEFORE_GROUND {
+                let clouds = clouds_before(sight.direction, before.w);
+                seen = max(clouds.a * seen + clouds.rgb, vec3f(0.0));
             }
             value = vec4f(seen, 1.0 + angle_if_near(sight.direction, glaring()));
         }
+        // A loop of one round, behind which no compiler joins this arithmetic with the tone curve's: both ways to the
+        // picture round alike.
         for (var open = sight.seen && before.w < 0.0; open; open = false) {
             var disc = disc_in_pixel(place, sight.direction);
             if MOON {

@@ -36,9 +36,9 @@ fn aces(c: vec3f) -> vec3f {
 }
 
 // AgX (Sobotka 2022): primaries drawn in, sixteen and a half stops of log, one S-curve (Wrensch's polynomial fit),
-// primaries drawn out. The curve gives display values of gamma 2.2.
-const AGX_POWER = 1.1;
-const AGX_SATURATION = 1.25;
+// primaries drawn out. The curve gives display values of gamma 2.2. Its foot steepens the differences between bands, so that colour is
+// added to what is bright alone: shadows under a blue sky would come out ultramarine.
+const AGX_SATURATION = 0.25;
 
 fn agx(c: vec3f) -> vec3f {
     let inset = mat3x3f(
@@ -57,8 +57,9 @@ fn agx(c: vec3f) -> vec3f {
     let x2 = x * x;
     let x4 = x2 * x2;
     let curve = 15.5 * x4 * x2 - 40.14 * x4 * x + 31.96 * x4 - 6.868 * x2 * x + 0.4298 * x2 + 0.1191 * x - 0.00232;
-    let steep = pow(max(curve, vec3f(0.0)), vec3f(AGX_POWER));
-    let graded = max(mix(vec3f(dot(LUMA, steep)), steep, AGX_SATURATION), vec3f(0.0));
+    let shown = max(curve, vec3f(0.0));
+    let luma = dot(LUMA, shown);
+    let graded = max(mix(vec3f(luma), shown, 1.0 + AGX_SATURATION * min(2.0 * luma, 1.0)), vec3f(0.0));
     return clamp(outset * graded, vec3f(0.0), vec3f(1.0));
 }
 

@@ -30,8 +30,8 @@ fn is_even_run(mu_first: f32, mu_last: f32, length: f32) -> bool {
 
 // A cell of a preview's lattice is even where linear interpolation between its corners stays within a step of 8-bit
 // colour, at dusk's horizon two. Over the horizon by an angle θ the light runs as a function of √θ: over a cell of height h the
-// error is its slope by √θ times h²/32 θ^-3/2. So a cell keeps away from the horizon by its own height.
-const CELL_SHARE = 1.0;
+// error is its slope by √θ times h²/32 θ^-3/2. So a cell keeps away from the horizon by more than its own height.
+const CELL_SHARE = 0.6;
 // And wherever it lies it spans no more than this of EVEN_ANGLE.
 const CELL_ANGLES = 4.0;
 // The lens' veil runs as 1/θ² about its source: its error is 3/4 (h/θ)² of itself.

@@ -141,10 +141,13 @@ fn thesis(turbidity: f64) -> Value {
     })
 }
 
-/// The default air.
+/// The air at 680, 550 and 440 nm (Bruneton and Neyret 2008, Hillaire 2020).
 fn earth(suns_deg: &[f64], relative_error: f64) -> Group {
     Group {
-        scene: json!({}),
+        scene: json!({"atmosphere": {
+            "rayleigh": {"scattering_per_m": [5.802e-6, 13.558e-6, 33.1e-6]},
+            "ozone": {"absorption_per_m": [0.650e-6, 1.881e-6, 0.085e-6]}
+        }}),
         albedos: vec![0.1, 0.8],
         relative_error,
         views: sky(0.0, suns_deg, &DIRECTIONS),

@@ -50,6 +50,9 @@ pub(crate) struct DomeView {
     pub(crate) discs_left: DiscsLeft,
     pub(crate) pages: wgpu::Buffer,
     pub(crate) seen: wgpu::TextureView,
+    pub(crate) nodes: wgpu::Buffer,
+    /// True where clouds may hang before what stands on the ground.
+    pub(crate) before_ground: bool,
 }
 
 impl DomeView {
@@ -323,6 +326,8 @@ impl CloudDomes {
             discs_left: DiscsLeft::default(),
             pages: dome.pages(gpu),
             seen: dome.seen.clone(),
+            nodes: dome.nodes.clone(),
+            before_ground: false,
         };
         self.kept.push_front(dome);
         self.kept.truncate(MOST_DOMES);

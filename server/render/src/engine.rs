@@ -200,18 +200,21 @@ impl Engine {
             let camera = CameraUniform::new(&scene.camera, size_px);
             let dome = clouds
                 .as_ref()
-                .filter(|scape| {
-                    let hidden = ground
-                        .as_ref()
-                        .is_some_and(|g| g.may_hide(scape.base_m, &tables.stand));
-                    order.quality == Quality::Preview && !hidden
-                })
+                .filter(|_| order.quality == Quality::Preview)
                 .map(|scape| {
                     let lens = Lens::new(&scene.camera, size_px);
                     let pixel_angle = f64::from(camera.pixel_angle);
-                    self.clouds
+                    let dome = self
+                        .clouds
                         .dome
-                        .run(&mut recorder, scape, &lens, size_px, pixel_angle)
+                        .run(&mut recorder, scape, &lens, size_px, pixel_angle);
+                    let before_ground = ground
+                        .as_ref()
+                        .is_some_and(|g| g.may_hide(scape.base_m, &tables.stand));
+                    DomeView {
+                        before_ground,
+                        ..dome
+                    }
                 });
             let exposure = match scene.display.exposure {
                 Exposure::Auto { compensation_ev } if order.output == Output::Display => {

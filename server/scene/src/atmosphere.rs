@@ -1,4 +1,5 @@
-//! The air. Default values: Bruneton and Neyret 2008, Hillaire 2020 (Earth, clear).
+//! The air. Default values: Hillaire 2020 (Earth, clear), and in R, G and B what the three responses of Rec. 709 make of
+//! the spectra of molecules and ozone (`docs/conventions.md`).
 
 use crate::{
     airglow::Airglow,
@@ -102,7 +103,7 @@ pub struct Rayleigh {
 impl Default for Rayleigh {
     fn default() -> Self {
         Self {
-            scattering_per_m: [5.802e-6, 13.558e-6, 33.1e-6],
+            scattering_per_m: [7.09e-6, 13.75e-6, 33.1e-6],
             absorption_per_m: [0.0; 3],
             scale_height_m: 8_000.0,
         }
@@ -156,7 +157,7 @@ pub struct Ozone {
 impl Default for Ozone {
     fn default() -> Self {
         Self {
-            absorption_per_m: [0.650e-6, 1.881e-6, 0.085e-6],
+            absorption_per_m: [2.7e-6, 1.66e-6, 0.02e-6],
             centre_m: 25_000.0,
             half_width_m: 15_000.0,
         }

@@ -249,6 +249,7 @@ impl Sky {
         let dome_uniform = dome.map_or_else(|| Part::new(&DomeUniform::default()), DomeView::uniform);
         let dome_uniform = dome_uniform.upload(gpu, "dome");
         let (pages, seen) = dome.map_or((&nowhere, &inputs.transmittance.view), |d| (&d.pages, &d.seen));
+        let before_ground = dome.filter(|d| d.before_ground && ground.is_some());
         let lit_ground = ground.as_ref().unwrap_or(&nowhere);
         let flag = |on: bool| f64::from(u8::from(on));
         let mut constants = vec![
@@ -260,6 +261,7 @@ impl Sky {
             ("CLOUDS", flag(inputs.clouds.is_some())),
             ("DOME", flag(dome.is_some())),
             ("GROUND", flag(ground.is_some())),
+            ("BEFORE_GROUND", flag(before_ground.is_some())),
         ];
         // Moonlight and rays of their own change from pixel to pixel.
         let span = if inputs.plan.method == Method::Lut && moon_sky_view.is_none() {
@@ -290,6 +292,7 @@ impl Sky {
                     Bind::Buffer(pages),
                     Bind::Table(seen),
                     Bind::Buffer(lit_ground),
+                    Bind::Buffer(before_ground.map_or(&nowhere, |d| &d.nodes)),
                 ])
                 .collect();
             recorder.dispatch(kernel, &all, [threads.x, threads.y, 1]);

@@ -21,7 +21,7 @@ fn depth(transmittance: Rgb) -> Rgb {
 #[test]
 fn rayleigh_scattering_brightens_its_own_band() {
     let (more, less) = pair(
-        json!({"rayleigh": {"scattering_per_m": [11.604e-6, 13.558e-6, 33.1e-6]}}),
+        json!({"rayleigh": {"scattering_per_m": [14.18e-6, 13.75e-6, 33.1e-6]}}),
         0.0,
         80.0,
     );
@@ -119,7 +119,7 @@ fn ozone_absorbs_where_its_layer_lies() {
         ))
     };
     let plain = of(json!({}), 0.0);
-    let double = of(json!({"absorption_per_m": [1.3e-6, 3.762e-6, 0.17e-6]}), 0.0);
+    let double = of(json!({"absorption_per_m": [5.4e-6, 3.32e-6, 0.04e-6]}), 0.0);
     let wide = of(json!({"half_width_m": 22500}), 0.0);
     for c in 0..3 {
         // The tent's area: centre × half width. f32 logarithms of 0.999.

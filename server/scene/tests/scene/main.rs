@@ -2,6 +2,7 @@
 #![allow(clippy::unwrap_used, clippy::expect_used, reason = "tests fail by panicking")]
 
 mod air;
+mod air_colour;
 mod clouds;
 mod documents;
 mod faults;

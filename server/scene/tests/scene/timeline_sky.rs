@@ -53,7 +53,7 @@ fn haze_air_and_stars_fade() {
     assert!((middle.haze.unwrap().extinction() - 3.912e-3 / 2.0).abs() < 1e-9);
     let air = middle.atmosphere.unwrap();
     let ozone = air.ozone.unwrap().absorption_per_m[1];
-    assert!(0.0 < ozone && ozone < 1.881e-6, "{ozone}");
+    assert!(0.0 < ozone && ozone < 1.66e-6, "{ozone}");
     assert!(number(&track, 5.0, "/stars/intensity") < 1.0);
     assert!((number(&track, 15.0, "/atmosphere/density_factor") - 0.5).abs() < 1e-12);
     assert_eq!(track.at(20.0).unwrap().atmosphere, None);
