@@ -42,7 +42,7 @@ pub(crate) struct GroundPasses {
 
 /// Side of the map by which the air is shaded where surfaces are by rays.
 const AIR_MAP_PX: u32 = 2048;
-/// A preview's map has a quarter of the side, but no less.
+/// A preview's map has an eighth of the side, but no less.
 const LEAST_MAP_PX: u32 = 512;
 
 /// How the ground hides its light.
@@ -164,7 +164,7 @@ impl GroundPasses {
         let kind = scene.terrain.as_ref().and_then(welkin_scene::Terrain::shadow);
         let side = |size_px: u32| match quality {
             Quality::Final => size_px,
-            Quality::Preview => (size_px / 4).max(LEAST_MAP_PX),
+            Quality::Preview => (size_px / 8).max(LEAST_MAP_PX),
         };
         let mut map = |size_px| self.shadow.run(recorder, &terrains, towards, side(size_px));
         let shadow = match kind {
