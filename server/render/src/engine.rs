@@ -2,7 +2,7 @@
 
 use crate::{
     camera::CameraUniform,
-    cloud_dome::{CloudsSeen, DomeView},
+    cloud_dome::DomeView,
     cloud_sky::CloudSky,
     cloudscape::{CloudLight, CloudPasses},
     cpu::airglow::{NightLight, night_light},
@@ -16,10 +16,13 @@ use crate::{
     method::Plan,
     moon_face,
     night::Night,
+    pillars::{PillarPasses, Pillars},
     noise_cache::DiskCache,
     passes::{
         exposure::{EXPOSURE_BYTES, ExposurePass, meter_size},
         multi_scattering::{MultiScatteringPass, Wanted},
+        ground_view::Looks,
+        pillars::{PillarsInputs, PillarsPass},
         probe::Probe,
         sky::{CloudInputs, Sky, SkyInputs, SkyTo},
         sky_view::SkyView,
@@ -56,6 +59,7 @@ pub(crate) struct Engine {
     probe: Probe,
     clouds: CloudPasses,
     ground: GroundPasses,
+    pillars: (PillarPasses, PillarsPass),
     screen: Screen,
     night_light: Memo<NightLight>,
     direct: Memo<Direct>,
@@ -99,6 +103,7 @@ impl Engine {
             probe,
             clouds,
             ground: GroundPasses::new(),
+            pillars: (PillarPasses::new(), PillarsPass::new()),
             screen: Screen::default(),
             night_light: Memo::new(8),
             direct: Memo::new(8),
@@ -198,6 +203,15 @@ impl Engine {
                     .scape(&mut recorder, &tables, (&sky, textures), light, order.quality)
             });
             let camera = CameraUniform::new(&scene.camera, size_px);
+            let shows = order.output == Output::Display;
+            let glare = if shows { scene.display.glare } else { 0.0 };
+            let pillars = self.pillars.0.scape(
+                &mut recorder,
+                (scene, &order.assets),
+                (&tables.stand, &night),
+                (ground.as_ref(), clouds.as_ref().map(|scape| scape.base_m)),
+                Some((&camera, size_px, glare)),
+            )?;
             let dome = clouds
                 .as_ref()
                 .filter(|scape| {
@@ -256,6 +270,7 @@ impl Engine {
                     stars,
                     clouds,
                     ground,
+                    pillars,
                     exposure,
                     dome,
                     by_lattices,
@@ -284,7 +299,8 @@ impl Engine {
             let mut recorder = Recorder::new(gpu);
             let inputs = frame.sky_inputs();
             let stars = frame.stars.as_ref().map(StarsOut::fingerprint);
-            let made_from = Fingerprint::of((inputs.fingerprint(&Part::new(&tile)), stars));
+            let pillars = frame.pillars.as_ref().map(Pillars::fingerprint);
+            let made_from = Fingerprint::of((inputs.fingerprint(&Part::new(&tile)), stars, pillars));
             let (settings, known_ev) = ToneUniform::new(
                 &order.scene,
                 &frame.camera,
@@ -299,9 +315,10 @@ impl Engine {
             };
             let display = order.output == Output::Display;
             // A preview by lattices is made anew sooner than its radiance could be toned.
-            let by_lattices = display && frame.stars.is_none() && frame.by_lattices;
+            let in_one = display && frame.stars.is_none() && frame.pillars.is_none();
+            let by_lattices = in_one && frame.by_lattices;
             // Whoever comes twice turns at the display: for them the radiance is kept.
-            let comes_first = display && frame.stars.is_none() && buffers.shown != Some(made_from);
+            let comes_first = in_one && buffers.shown != Some(made_from);
             let at_once = by_lattices || comes_first;
             // Both emptied until the commands have run.
             let (held, _) = (buffers.holds.take(), buffers.shown.take());
@@ -314,20 +331,29 @@ impl Engine {
                     SkyTo::Radiance(&buffers.radiance)
                 };
                 let (clouds, lit_ground) = self.sky.run(&mut recorder, inputs, tile, to);
+                let seen = frame.clouds_seen(clouds.as_ref());
                 if let Some(stars) = &frame.stars {
                     let reads = StarsInputs {
                         air: inputs.air,
                         view: inputs.view,
                         transmittance: inputs.transmittance,
-                        clouds: frame
-                            .dome
-                            .as_ref()
-                            .map(CloudsSeen::Dome)
-                            .or(clouds.as_ref().map(CloudsSeen::Tile)),
+                        clouds: seen,
                         lit_ground: lit_ground.as_ref(),
                     };
                     self.stars
                         .run(&mut recorder, reads, stars, tile, &buffers.radiance);
+                }
+                if let Some(pillars) = &frame.pillars {
+                    let reads = PillarsInputs {
+                        air: inputs.air,
+                        transmittance: inputs.transmittance,
+                        clouds: seen,
+                        lit_ground: lit_ground.as_ref(),
+                    };
+                    let looks = Looks::Tile(inputs.camera, inputs.plan.projection, tile, inputs.frame_px);
+                    self.pillars
+                        .1
+                        .run(&mut recorder, reads, pillars, looks, &buffers.radiance);
                 }
             }
             let is_held = !by_lattices && (held == Some(made_from) || !at_once);
