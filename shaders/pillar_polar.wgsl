@@ -79,7 +79,7 @@ fn pillar_polar(@builtin(global_invocation_id) id: vec3u) {
             let between = sqrt(near * far);
             var low = 0.0;
             var high = 1.0;
-            for (var k = 0u; k < 6u; k++) {
+            for (var k = 0u; k < 9u; k++) {
                 let middle = 0.5 * (low + high);
                 let there = reach(lamp, -e1, side, mix(from_gamma, gamma_of(polar, f32(row + 1u)), middle));
                 let same = (there < between) == (near < between);

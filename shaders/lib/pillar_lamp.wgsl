@@ -8,6 +8,9 @@ struct Ice {
     count: u32,
     // The observer over the sphere, metres, for the air's density.
     altitude_m: f32,
+    // Always 3 and 2. Bounds that a compiler knows make it write loops out, here twentyfold, and take many seconds over it.
+    three: u32,
+    two: u32,
     layers: array<Crystals, MOST_LAYERS>,
 }
 
@@ -59,7 +62,7 @@ fn clumped(layer: Crystals, p: vec3f) -> f32 {
 fn mirrored(air: Air, layer: Crystals, lamp: Lamp, fan: Fan, v: vec3f, sin_least: f32, psi0: f32, ends: vec2f) -> vec3f {
     let nodes = nodes_of(layer, ends - psi0);
     var sum = vec3f(0.0);
-    for (var k = 0u; k < 3u; k++) {
+    for (var k = 0u; k < ice.three; k++) {
         let weight = nodes.weight[k];
         if weight <= 0.0 {
             break;

@@ -16,8 +16,8 @@ fn open_pillar(air: Air, lamp: Lamp, v: vec3f, end_m: f32, blur_m: f32) -> vec3f
             continue;
         }
         var sum = vec3f(0.0);
-        for (var k = -1.0; k < 1.5; k += 1.0) {
-            let psi0 = fan.psi0 + k * PI;
+        for (var k = 0u; k < ice.three; k++) {
+            let psi0 = fan.psi0 + (f32(k) - 1.0) * PI;
             let ends = vec2f(max(psi0 - support.reach, support.ends.x), min(psi0 + support.reach, support.ends.y));
             if ends.x < ends.y {
                 sum += mirrored(air, layer, lamp, fan, v, support.sin_least, psi0, ends);

@@ -86,8 +86,8 @@ fn shaded_pillar(air: Air, lamp: Lamp, index: u32, v: vec3f, end_m: f32, blur_m:
             continue;
         }
         var sum = vec3f(0.0);
-        for (var k = -1.0; k < 1.5; k += 1.0) {
-            let psi0 = fan.psi0 + k * PI;
+        for (var k = 0u; k < ice.three; k++) {
+            let psi0 = fan.psi0 + (f32(k) - 1.0) * PI;
             let ends = vec2f(max(psi0 - support.reach, support.ends.x), min(psi0 + support.reach, support.ends.y));
             if ends.x >= ends.y {
                 continue;
@@ -97,7 +97,7 @@ fn shaded_pillar(air: Air, lamp: Lamp, index: u32, v: vec3f, end_m: f32, blur_m:
                 continue;
             }
             // Between the two planes nearest.
-            for (var c = 0u; c < 2u; c++) {
+            for (var c = 0u; c < ice.two; c++) {
                 let weight = select(1.0 - (column - f32(left)), column - f32(left), c == 1u);
                 if weight > 0.0 {
                     let first = side + (left + c) * (polar.rows + 1u);

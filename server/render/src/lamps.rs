@@ -48,7 +48,10 @@ pub(crate) fn lamps_made_from(scene: &Scene, assets: &SceneAssets) -> Fingerprin
         let radiant = light
             .radiant_intensity_w_sr
             .map(|bands| bands.rgb().map(f64::to_bits));
-        let (kelvin, candela) = (bits(light.colour_temperature_k), bits(light.luminous_intensity_cd));
+        let (kelvin, candela) = (
+            bits(light.colour_temperature_k),
+            bits(light.luminous_intensity_cd),
+        );
         (light.above, radiant, light.lamp, kelvin, candela).hash(&mut hasher);
         (light.radius_m.to_bits(), light.emission).hash(&mut hasher);
     }

@@ -153,7 +153,12 @@ pub(crate) fn cells(
         Cone::about(lens, to_own, from.as_dvec2(), (end - from).as_dvec2())
     };
     let cell_cones: Vec<Option<Cone>> = (0..count.x * count.y)
-        .map(|i| cone(UVec2::new(i % count.x, i / count.x) * CELL_PX, UVec2::splat(CELL_PX)))
+        .map(|i| {
+            cone(
+                UVec2::new(i % count.x, i / count.x) * CELL_PX,
+                UVec2::splat(CELL_PX),
+            )
+        })
         .collect();
     let block_cones: Vec<Option<Cone>> = (0..blocks.x * blocks.y)
         .map(|i| {

@@ -62,7 +62,11 @@ impl Pillars {
     /// About how many times the work of one lamp each pixel takes, in pixels that read tables.
     pub(crate) fn work_per_pixel(&self, one: f64) -> u32 {
         let shaded = if self.polar.is_some() { 3.0 } else { 1.0 };
-        #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a few hundred at most")]
+        #[allow(
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            reason = "a few hundred at most"
+        )]
         let work = (one * shaded * self.cells.mean).min(200.0) as u32;
         work + 1
     }
@@ -148,7 +152,11 @@ impl PillarPasses {
         let pixel_angle = picture.map_or(0.0, |(camera, ..)| f64::from(camera.pixel_angle));
         let veiled = picture.is_some_and(|(.., glare)| glare > 0.0);
         let size_px = picture.map(|(_, size_px, _)| size_px);
-        let cells_from = Fingerprint::of((lamps.made_from, &ice_part, format!("{:?} {size_px:?} {veiled}", scene.camera)));
+        let cells_from = Fingerprint::of((
+            lamps.made_from,
+            &ice_part,
+            format!("{:?} {size_px:?} {veiled}", scene.camera),
+        ));
         let cells = self.cells.get_or(cells_from, || {
             let Some(size_px) = size_px else {
                 return CellBuffers::none(gpu);
@@ -156,7 +164,15 @@ impl PillarPasses {
             let lens = Lens::new(&scene.camera, size_px);
             CellBuffers::upload(
                 gpu,
-                &cells(&lens, &own, size_px, &lamps.lamps, ice.layers(), pixel_angle, veiled),
+                &cells(
+                    &lens,
+                    &own,
+                    size_px,
+                    &lamps.lamps,
+                    ice.layers(),
+                    pixel_angle,
+                    veiled,
+                ),
             )
         });
         let own_part = Part::new(&OwnUniform {
@@ -192,7 +208,12 @@ impl PillarPasses {
         // Clouds are before what lies beyond their bases.
         let base_m = clouds_base_m.map_or(f64::INFINITY, f64::from);
         let over = stand.altitude_m > base_m;
-        let top_m = ice.layers().iter().map(|l| f64::from(l.top_m)).fold(0.0, f64::max) + stand.altitude_m;
+        let top_m = ice
+            .layers()
+            .iter()
+            .map(|l| f64::from(l.top_m))
+            .fold(0.0, f64::max)
+            + stand.altitude_m;
         Ok(Some(Pillars {
             made_from: Fingerprint::of((
                 "pillars",

@@ -7,13 +7,13 @@ use crate::{
     groundscape::Groundscape,
     lights::{Glare, Lights},
     method::Plan,
-    pillars::Pillars,
     passes::{
         Table,
         multi_scattering::MultiScattering,
         sky::{CloudInputs, SkyInputs},
         stars::StarsOut,
     },
+    pillars::Pillars,
     sunlight::Direct,
     uniforms::{Part, Standpoint},
 };
@@ -83,7 +83,10 @@ impl Prepared {
     pub(crate) fn work_per_pixel(&self) -> u32 {
         let followed = self.clouds.is_some() && self.dome.is_none();
         let ground = if self.ground.is_some() { GROUND_WORK } else { 0 };
-        let pillars = self.pillars.as_ref().map_or(0, |pillars| pillars.work_per_pixel(LAMP_WORK));
+        let pillars = self
+            .pillars
+            .as_ref()
+            .map_or(0, |pillars| pillars.work_per_pixel(LAMP_WORK));
         self.tables.plan.work_per_pixel() + ground + pillars + if followed { CLOUD_WORK } else { 0 }
     }
 }

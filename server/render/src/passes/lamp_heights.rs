@@ -21,7 +21,12 @@ impl LampHeights {
     }
 
     /// Heights over the sphere under places in the scene, metres. Waits for the device.
-    pub(crate) fn run(&mut self, gpu: &Gpu, terrains: &Terrains, places_m: &[DVec3]) -> Result<Vec<f64>, Error> {
+    pub(crate) fn run(
+        &mut self,
+        gpu: &Gpu,
+        terrains: &Terrains,
+        places_m: &[DVec3],
+    ) -> Result<Vec<f64>, Error> {
         if places_m.is_empty() {
             return Ok(Vec::new());
         }

@@ -24,7 +24,7 @@ pub(crate) struct PillarPolar {
 /// Planes to a side and rows of a table: fewer where there are many lamps, so that the rays of all are about a million.
 const fn fineness(lamps: usize) -> (u32, u32) {
     match lamps {
-        0..=400 => (9, 64),
+        0..=400 => (9, 72),
         401..=2_000 => (5, 48),
         _ => (3, 24),
     }
@@ -56,7 +56,12 @@ impl PillarPolar {
             words,
         });
         let shape = scape.terrains.shape.made_from;
-        let made_from = Fingerprint::of(("pillar_polar", shape, (&scape.ground, ice, own, &uniform), lamps_from));
+        let made_from = Fingerprint::of((
+            "pillar_polar",
+            shape,
+            (&scape.ground, ice, own, &uniform),
+            lamps_from,
+        ));
         self.memo.get_or(made_from, || {
             let gpu = recorder.gpu;
             let table = gpu.buffer(

@@ -230,8 +230,13 @@ impl Probe {
             clouds: clouds.as_ref().map(CloudsSeen::List),
             lit_ground: lit_ground.as_ref(),
         };
-        self.pillars
-            .run(&mut recorder, reads, pillars, Looks::List(&directions, threads), &added);
+        self.pillars.run(
+            &mut recorder,
+            reads,
+            pillars,
+            Looks::List(&directions, threads),
+            &added,
+        );
         recorder
             .encoder
             .copy_buffer_to_buffer(&added, 0, &added_readable, 0, 16 * count);

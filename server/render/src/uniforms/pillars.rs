@@ -34,6 +34,8 @@ pub(crate) struct CrystalsUniform {
 pub(crate) struct IceUniform {
     pub(crate) count: u32,
     pub(crate) altitude_m: f32,
+    pub(crate) three: u32,
+    pub(crate) two: u32,
     pub(crate) layers: [CrystalsUniform; MAX_CRYSTAL_LAYERS],
 }
 
@@ -162,6 +164,8 @@ impl IceUniform {
     pub(crate) fn new(scene: &Scene, altitude_m: f64) -> Self {
         let mut ice = Self {
             altitude_m: narrow(altitude_m),
+            three: 3,
+            two: 2,
             ..Self::default()
         };
         let layers = scene.ice_crystals.as_ref().map(IceCrystals::layers);
