@@ -21,21 +21,21 @@ pub(super) fn presets() -> Vec<Preset> {
             title: "Arctic town",
             description: "A town of 300 lamps at -20 °C under a clear night sky: plates of ice raise a pillar over each.",
             scene: Scene {
-                camera: from(30.0, lens(45.0, looking(0.0, 12.0))),
+                camera: from(60.0, lens(45.0, looking(0.0, 12.0))),
                 sun: sun(330.0, -25.0),
                 moon: None,
                 planet: snowy(),
                 terrain: Some(Terrain::Heightfield(hills())),
                 town: Some(Town::Procedural(ProceduralTown {
                     centre_m: [0.0, 3_600.0],
-                    radius_m: 1_700.0,
+                    radius_m: 1_500.0,
                     above: Above::Ground,
-                    luminous_intensity_cd: 700.0,
+                    luminous_intensity_cd: 1_500.0,
                     ..ProceduralTown::default()
                 })),
                 ice_crystals: Some(IceCrystals::One(CrystalLayer {
-                    top_m: 700.0,
-                    number_density_per_m3: 12_000.0,
+                    top_m: 500.0,
+                    number_density_per_m3: 60_000.0,
                     extinction_per_m: 1.2e-4,
                     variation: Some(CrystalVariation {
                         amount: 0.4,
@@ -43,7 +43,7 @@ pub(super) fn presets() -> Vec<Preset> {
                     }),
                     ..CrystalLayer::default()
                 })),
-                display: night(-1.0),
+                display: night(-3.5),
                 ..Scene::clear()
             },
         },
@@ -144,7 +144,7 @@ fn hills() -> Heightfield {
             seed: 5,
             ridge_scale_m: 3_500.0,
             roughness: 0.3,
-            valley_radius_m: 1_200.0,
+            valley_radius_m: 2_500.0,
             ..Mountains::default()
         }),
         extent_m: Some(24_000.0),
