@@ -123,9 +123,8 @@ fn of_points(file: &[u8]) -> Result<Vec<Value>, Error> {
     #[allow(clippy::cast_precision_loss, reason = "a few thousand")]
     let count = points.len().max(1) as f64;
     // The file's origin is the mean of its points.
-    let middle =
-        |axis: fn(&(f64, f64, Option<f64>, &Value)) -> f64| points.iter().map(axis).sum::<f64>() / count;
-    let (east_deg, north_deg) = (middle(|p| p.0), middle(|p| p.1));
+    let east_deg = points.iter().map(|point| point.0).sum::<f64>() / count;
+    let north_deg = points.iter().map(|point| point.1).sum::<f64>() / count;
     Ok(points
         .iter()
         .map(|(longitude, latitude, height_m, properties)| {

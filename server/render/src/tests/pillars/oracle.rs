@@ -73,11 +73,42 @@ fn scene(of: &Value) -> Scene {
     scene
 }
 
-/// Four corners, seen from both sides.
-fn rectangle(corners: [DVec3; 4]) -> MeshModel {
+/// Terrain that is a mesh named `wall`.
+pub(super) fn standing() -> Terrain {
+    Terrain::Mesh(Mesh {
+        name: "wall".into(),
+        scale: 1.0,
+        position_m: [0.0; 3],
+        azimuth_deg: 0.0,
+        up_axis: UpAxis::Z,
+        phong: None,
+        shadow: None,
+    })
+}
+
+/// Rectangles as one black mesh.
+pub(super) fn black(all: &[[DVec3; 4]]) -> MeshModel {
+    let positions: Vec<_> = all.iter().flatten().map(|c| c.as_vec3().to_array()).collect();
+    let count = u32::try_from(all.len()).unwrap();
     MeshModel {
-        positions: corners.map(|c| c.as_vec3().to_array()).to_vec().into(),
-        ..MeshModel::default()
+        normals: vec![[0.0, 0.0, 1.0]; positions.len()].into(),
+        uvs: vec![[0.0; 2]; positions.len()].into(),
+        triangles: (0..count)
+            .flat_map(|i| [[4 * i, 4 * i + 1, 4 * i + 2], [4 * i, 4 * i + 2, 4 * i + 3]])
+            .collect(),
+        material_of: vec![0; 2 * all.len()].into(),
+        positions: positions.into(),
+        materials: vec![Material {
+            albedo: [0.0; 3],
+            ambient: [0.0; 3],
+            diffuse: 0.0,
+            specular: [0.0; 3],
+            shininess: 1.0,
+            texture: None,
+            normal_map: None,
+        }],
+        textures: Vec::new(),
+        digest: [7; 32],
     }
 }
 
@@ -88,43 +119,15 @@ fn obstacles(of: &Value) -> Option<MeshModel> {
         let (x, top) = (number(&wall["x"]), number(&wall["ztop"]));
         let at = |y: f64, z: f64| DVec3::new(x, y, z);
         // Short, since a chord of 4 km lies 2 cm lower than the planet of 1e8 m that it stands on.
-        let mut all = vec![rectangle([
-            at(-100.0, -1.0),
-            at(100.0, -1.0),
-            at(100.0, top),
-            at(-100.0, top),
-        ])];
+        let mut all = vec![[at(-100.0, -1.0), at(100.0, -1.0), at(100.0, top), at(-100.0, top)]];
         for value in of["values"].as_array().unwrap() {
             let v = DVec3::from_array(triple(&value["v"]));
             let middle = DVec3::from_array(triple(&of["V"])) + number(&of["tmax"]) * v;
             let (right, up) = (DVec3::Y, v.cross(DVec3::Y).normalize());
-            all.push(rectangle(
-                [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]]
-                    .map(|[a, b]| middle + 0.03 * (a * right + b * up)),
-            ));
+            let corners = [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]];
+            all.push(corners.map(|[a, b]| middle + 0.03 * (a * right + b * up)));
         }
-        let positions: Vec<_> = all.iter().flat_map(|r| r.positions.iter().copied()).collect();
-        let count = u32::try_from(all.len()).unwrap();
-        MeshModel {
-            normals: vec![[0.0, 0.0, 1.0]; positions.len()].into(),
-            uvs: vec![[0.0; 2]; positions.len()].into(),
-            triangles: (0..count)
-                .flat_map(|i| [[4 * i, 4 * i + 1, 4 * i + 2], [4 * i, 4 * i + 2, 4 * i + 3]])
-                .collect(),
-            material_of: vec![0; 2 * all.len()].into(),
-            positions: positions.into(),
-            materials: vec![Material {
-                albedo: [0.0; 3],
-                ambient: [0.0; 3],
-                diffuse: 0.0,
-                specular: [0.0; 3],
-                shininess: 1.0,
-                texture: None,
-                normal_map: None,
-            }],
-            textures: Vec::new(),
-            digest: [7; 32],
-        }
+        black(&all)
     })
 }
 
@@ -138,15 +141,7 @@ fn lamps() {
         let mut assets = SceneAssets::default();
         if let Some(mesh) = obstacles(of) {
             assets.meshes.insert("wall".into(), Arc::new(mesh));
-            scene.terrain = Some(Terrain::Mesh(Mesh {
-                name: "wall".into(),
-                scale: 1.0,
-                position_m: [0.0; 3],
-                azimuth_deg: 0.0,
-                up_axis: UpAxis::Z,
-                phong: None,
-                shadow: None,
-            }));
+            scene.terrain = Some(standing());
         }
         let values = of["values"].as_array().unwrap();
         let directions: Vec<_> = values
