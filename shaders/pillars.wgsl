@@ -1,7 +1,7 @@
 // Adds pillars of light and the lamps below them to a tile of radiance, or sums them along a list of directions.
 import package::lib::air::Air;
 import package::lib::camera::{Camera, Sight, sight_at};
-import package::lib::dome_left::{dome_seen, left_towards};
+import package::lib::dome_left::left_towards;
 import package::lib::geometry::{PI, angle_if_near, distance_to_sphere};
 import package::lib::picture::lens_veil;
 import package::lib::pillar::{Lamp, emitted};
@@ -45,7 +45,7 @@ override SHADED: bool = false;
 // True where clouds hide the pillars of lamps, and of sun and moon.
 override CLOUDED_LAMPS: bool = false;
 override CLOUDED_SUN: bool = false;
-// True to look clouds up by direction, false for a table of the tile's pixels, or the list in `dome_seen`.
+// True to look clouds up by direction, false for a table of the tile's pixels, or `left_list`.
 override DOME: bool = false;
 
 // Pixels to a side of a cell, and what each number in its list says beside which lamp it is.
@@ -69,6 +69,8 @@ const WHICH = 0x3fffffffu;
 // Where each cell's list begins, where the last one ends, and the lists.
 @group(0) @binding(14) var<storage, read> cells: array<u32>;
 @group(0) @binding(15) var<storage, read> directions: array<vec4f>;
+// Along each direction, what clouds let through, in alpha.
+@group(0) @binding(18) var<storage, read> left_list: array<vec4f>;
 
 const ENDLESS_M = 1e9;
 // No veil is drawn farther from a lamp, degrees.
@@ -159,9 +161,9 @@ fn pillars(@builtin(global_invocation_id) id: vec3u) {
     var left = 1.0;
     if CLOUDED_LAMPS || CLOUDED_SUN {
         if DOME {
-            left = left_towards(air.radius_m, scene.up, scene.altitude_m, sight.direction);
+            left = left_towards(air.radius_m, scene.up, scene.altitude_m, sight.direction, linear_clamp);
         } else if LIST {
-            left = dome_seen[i].a;
+            left = left_list[i].a;
         } else {
             left = textureLoad(cloud_table, id.xy, 0).a;
         }

@@ -59,7 +59,7 @@ fn stars(@builtin(global_invocation_id) id: vec3u) {
     let mu = dot(glint.direction, view.up);
     var left = light_left(air, transmittance_table, linear_clamp, view.altitude_m, mu);
     if DOME {
-        left *= left_towards(air.radius_m, view.up, view.altitude_m, glint.direction);
+        left *= left_towards(air.radius_m, view.up, view.altitude_m, glint.direction, linear_clamp);
     } else if CLOUDS {
         left *= textureLoad(cloud_table, place, 0).a;
     }

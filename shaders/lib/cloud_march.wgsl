@@ -54,7 +54,7 @@ fn march_band(index: u32, ray: CloudRay, start_m: f32, stop_m: f32) {
         let share_seen = left * pending.x;
         let spread = !within || t - begun_m > SPREAD * max(least_m, growth * t);
         let apart = share_seen >= NODE_SHARE || (share_seen > LEAST_APART && spread);
-        for (var due = pending.x > 0.0 && (ends || apart); due; due = false) {
+        if pending.x > 0.0 && (ends || apart) {
             note(pending.x, pending.y / pending.x, index, pending.z / pending.x);
             pending = vec3f(0.0);
         }

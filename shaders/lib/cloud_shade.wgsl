@@ -106,8 +106,7 @@ fn shade_depth(
     var sum = 0.0;
     for (var i = 0u; i < shade.count; i++) {
         let middle_m = shade.middles_m[i / 4u][i % 4u];
-        // A loop of one round at most: a software device runs what an `if` leaves out.
-        for (var over = middle_m > altitude_m; over; over = false) {
+        if middle_m > altitude_m {
             let way_m = distance_to_top(radius_m, middle_m, altitude_m, mu);
             let at = shade_coordinate(shade, along_sphere(radius_m, p + way_m * light, middle_m));
             sum += depth_from_map(textureSampleLevel(maps, linear_clamp, at, 2u * i + 1u, 0.0)).a;

@@ -25,7 +25,8 @@ struct MapPlace {
 fn map_place(shadow: GroundShadow, p: vec3f) -> MapPlace {
     let along = vec3f(dot(p, shadow.right), dot(p, shadow.up), dot(p, shadow.light));
     let unit = 0.5 + 0.5 * (along - shadow.middle_m) / shadow.half_m;
-    return MapPlace(unit.xy * f32(shadow.size_px), unit.z);
+    // Places beyond the map's depth are behind all that stands there, and behind nothing where nothing does.
+    return MapPlace(unit.xy * f32(shadow.size_px), max(unit.z, 0.0));
 }
 
 // Where the light of a texel's middle enters the map's depth.

@@ -24,6 +24,7 @@ use crate::{
     uniforms::{
         Part, Standpoint,
         clouds::{CloudFrameUniform, ShadowUniform},
+        narrow,
     },
 };
 use glam::Vec3;
@@ -71,6 +72,8 @@ pub(crate) struct Cloudscape {
     pub(crate) base_m: f32,
     place_m: Vec3,
     light: Vec3,
+    /// Whether the observer is under all of them.
+    pub(crate) under_clouds: bool,
     one_layer: (&'static str, f64),
     made_from: Fingerprint,
 }
@@ -219,6 +222,15 @@ const fn shadow_steps(quality: Quality) -> (f32, f32) {
     }
 }
 
+/// How many times more steps the light's way takes between two heights under a low sun: it is that much longer, and what is
+/// stepped over there stands as stripes on the clouds. No more than four.
+fn slant(sun_cosine: f64) -> f32 {
+    narrow((LEVEL_COSINE / sun_cosine.abs()).clamp(1.0, 4.0))
+}
+
+/// From this cosine on light counts as low.
+const LEVEL_COSINE: f64 = 0.3;
+
 /// How fine the steps are against those that the scene asks for.
 const fn fineness(quality: Quality) -> f64 {
     match quality {
@@ -313,17 +325,18 @@ impl CloudPasses {
             shade.direct_left = 1.0;
         }
         let base_m = shade.base_m;
+        let under_clouds = light.stand.altitude_m < f64::from(shade.base_m);
         let shade = Part::new(&shade);
         let reads = (&*tables.transmittance, &tables.multi_scattering.source);
         let aerial = self
             .aerial
             .run(recorder, &tables.air, &light.stand, reads, tables.plan, quality);
         let (share, most_steps) = shadow_steps(quality);
-        let step_m = share * sky.noise_scale_m();
+        let slant = slant(light.stand.up.dot(light.stand.sun));
         let towards = ShadowUniform {
             light: light.stand.sun.as_vec3(),
-            step_m,
-            most_steps,
+            step_m: share * sky.noise_scale_m() / slant,
+            most_steps: most_steps * slant,
         };
         let shadow = self.shadow.run(
             recorder,
@@ -358,6 +371,7 @@ impl CloudPasses {
             base_m,
             place_m: crate::uniforms::narrow3(scene.camera.position_m),
             light: light.stand.sun.as_vec3(),
+            under_clouds,
             one_layer: sky.one_layer(),
             made_from,
         }

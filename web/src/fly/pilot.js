@@ -10,6 +10,8 @@ export const STILL = { ahead: 0, right: 0, up: 0, turn: 0, pitch: 0, turbo: 0 };
 const WALK_M_S = 1.5;
 /** Up here the speed grows by as much each second: from the ground to orbit in half a minute. */
 const PER_HEIGHT_S = 0.5;
+/** And never by more, however fast: a hundredfold would be at the moon before a finger is off the key. */
+const MOST_PER_HEIGHT_S = 5;
 const TURBO = 10;
 const [LEAST_FACTOR, MOST_FACTOR] = [1e-3, 1e6];
 /** Below this one walks: ahead is level, wherever one looks. Metres over the ground. */
@@ -25,8 +27,9 @@ const TURN_DEG_S = 60;
 const EASE_S = 0.12;
 const AT_REST = 1e-3;
 
-/** Speed before the factor. @param {number} height Over the ground, metres */
-export const speedAt = (height) => WALK_M_S + PER_HEIGHT_S * Math.max(height - WALK_BELOW_M, 0);
+/** @param {number} height Over the ground, metres @param {number} factor Over a walk's speed */
+export const speedAt = (height, factor) =>
+  WALK_M_S * factor + Math.min(PER_HEIGHT_S * factor, MOST_PER_HEIGHT_S) * Math.max(height - WALK_BELOW_M, 0);
 
 /**
  * @param {import('../camera.js').Camera} camera
@@ -50,7 +53,7 @@ export function createPilot(camera, ground) {
     return /** @type {Intent} */ (Object.fromEntries(Object.keys(STILL).map((key) => [key, sum(/** @type {keyof Intent} */ (key))])));
   };
   const height = () => camera.altitude() - ground.height();
-  const speed = () => Math.min(speedAt(standing ?? height()) * factor * (isTurbo || flow.turbo > 0.5 ? TURBO : 1), FASTEST_M_S);
+  const speed = () => Math.min(speedAt(standing ?? height(), factor * (isTurbo || flow.turbo > 0.5 ? TURBO : 1)), FASTEST_M_S);
 
   /** @param {number} seconds */
   const ease = (seconds) => {

@@ -66,7 +66,8 @@ impl PillarsPass {
         let dome_uniform = dome
             .map_or_else(|| Part::new(&DomeUniform::default()), DomeView::uniform)
             .upload(gpu, "dome");
-        let (pages, seen) = dome.map_or((&nowhere, listed.unwrap_or(&nowhere)), |d| (&d.pages, &d.seen));
+        let pages = dome.map_or(&nowhere, |dome| &dome.pages);
+        let seen = dome.map_or(inputs.transmittance, |dome| &dome.seen);
         let [camera, tile, directions] = looks.upload(gpu);
         let none = Part::new(&PolarUniform::default());
         let polar = pillars.polar.as_ref();
@@ -82,7 +83,7 @@ impl PillarsPass {
             Bind::Table(&table.unwrap_or(inputs.transmittance).view),
             Bind::Buffer(&dome_uniform),
             Bind::Buffer(pages),
-            Bind::Buffer(seen),
+            Bind::Table(&seen.view),
             Bind::Buffer(inputs.lit_ground.unwrap_or(&nowhere)),
             Bind::Buffer(&tile),
             Bind::Buffer(&pillars.lamps.buffer),
@@ -90,6 +91,7 @@ impl PillarsPass {
             Bind::Buffer(&directions),
             Bind::Buffer(&polar_uniform),
             Bind::Buffer(polar.map_or(&nowhere, |polar| &polar.words)),
+            Bind::Buffer(listed.unwrap_or(&nowhere)),
         ];
         let flag = |on: bool| f64::from(u8::from(on));
         let clouded = inputs.clouds.is_some();

@@ -248,7 +248,7 @@ impl Sky {
         ];
         let dome_uniform = dome.map_or_else(|| Part::new(&DomeUniform::default()), DomeView::uniform);
         let dome_uniform = dome_uniform.upload(gpu, "dome");
-        let (pages, seen) = dome.map_or((&nowhere, &nowhere), |d| (&d.pages, &d.seen));
+        let (pages, seen) = dome.map_or((&nowhere, &inputs.transmittance.view), |d| (&d.pages, &d.seen));
         let lit_ground = ground.as_ref().unwrap_or(&nowhere);
         let flag = |on: bool| f64::from(u8::from(on));
         let mut constants = vec![
@@ -288,7 +288,7 @@ impl Sky {
                 .chain([
                     Bind::Buffer(&dome_uniform),
                     Bind::Buffer(pages),
-                    Bind::Buffer(seen),
+                    Bind::Table(seen),
                     Bind::Buffer(lit_ground),
                 ])
                 .collect();

@@ -128,7 +128,7 @@ impl StarsPass {
         let dome_uniform = uniform.upload(gpu, "dome");
         // What a variant does not read must still be bound.
         let nowhere = gpu.buffer("unused", 16, wgpu::BufferUsages::STORAGE);
-        let (pages, seen) = dome.map_or((&nowhere, &nowhere), |d| (&d.pages, &d.seen));
+        let (pages, seen) = dome.map_or((&nowhere, &inputs.transmittance.view), |d| (&d.pages, &d.seen));
         let binds = [
             Bind::Buffer(&air),
             Bind::Buffer(&view),
@@ -140,7 +140,7 @@ impl StarsPass {
             Bind::Table(&table.unwrap_or(inputs.transmittance).view),
             Bind::Buffer(&dome_uniform),
             Bind::Buffer(pages),
-            Bind::Buffer(seen),
+            Bind::Table(seen),
             Bind::Buffer(inputs.lit_ground.unwrap_or(&nowhere)),
         ];
         let flag = |on: bool| f64::from(u8::from(on));

@@ -11,6 +11,7 @@
 mod aerial;
 mod cloud;
 mod depth;
+mod dome;
 mod furnace;
 mod geometry;
 mod ground;

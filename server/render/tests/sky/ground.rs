@@ -136,6 +136,32 @@ fn a_map_shows_the_shadows_that_rays_do() {
     }
 }
 
+/// Light that passes by all that stands reaches the plain beyond the terrain too, behind the map's depth.
+#[test]
+fn the_plain_beyond_the_terrain_is_lit() {
+    let post = assets(40, |column, row| {
+        if (18..22).contains(&column) && row > 30 {
+            1.0
+        } else {
+            0.0
+        }
+    });
+    let view = |shadow: Value| {
+        scene(
+            json!({"camera": {"position_m": [11500, 2000, 500]}, "shafts": null,
+            "sun": {"position": {"azimuth_deg": 270, "elevation_deg": 20}}, "terrain": field(&json!({"shadow": shadow}))}),
+        )
+    };
+    let looks = [(0.0, -60.0), (90.0, -60.0), (180.0, -75.0)];
+    let map = json!({"kind": "map", "size_px": 512, "filter": "gaussian"});
+    let with = probed(view(map), &post, &looks);
+    let without = probed(view(Value::Null), &post, &looks);
+    for i in 0..looks.len() {
+        let (a, b) = (luma(with.radiance_w_m2_sr[i]), luma(without.radiance_w_m2_sr[i]));
+        assert!((a / b - 1.0).abs() < 1e-3, "{:?}: {a} {b}", looks[i]);
+    }
+}
+
 /// A wall between the observer and the sun keeps its light from them, and the air behind it from scattering it.
 #[test]
 fn a_wall_hides_the_sun_and_draws_a_shaft() {

@@ -4,6 +4,7 @@ use super::{Preset, clouds, looking, sun, volume};
 use crate::{
     camera::{Camera, Projection},
     clouds::Layer,
+    display::{Display, Exposure, ToneCurve},
     document::Scene,
     haze::Haze,
     planet::{Planet, SphereSurface, Water},
@@ -20,27 +21,48 @@ pub(super) fn presets() -> Vec<Preset> {
         Preset {
             name: "alpine-dawn",
             title: "Alpine dawn",
-            description: "From the floor of a valley towards a sun that comes over the ridges: shafts in the haze.",
+            description: "The sun comes through a gap between two mountains; its light stands in the haze, and theirs is the \
+                          shadow.",
             scene: Scene {
-                camera: looking(95.0, 9.0),
-                sun: sun(98.0, 11.0),
+                camera: standing([2_000.0, 800.0, 400.0], normal(87.0, 6.0)),
+                sun: sun(81.0, 7.6),
+                clouds: None,
                 haze: Some(Haze {
-                    visibility_m: Some(35_000.0),
-                    top_m: 1_500.0,
+                    visibility_m: Some(110_000.0),
+                    top_m: 2_200.0,
                     ..Haze::default()
                 }),
                 terrain: Some(Terrain::Heightfield(alps())),
+                // As one would open up for a slope in the shade, in the contrast of a slide.
+                display: Display {
+                    tone_curve: ToneCurve::Aces,
+                    ..opened(1.1)
+                },
                 ..Scene::default()
             },
         },
         Preset {
             name: "ridge-and-clouds",
             title: "Ridge and clouds",
-            description: "Above a sea of cloud from which summits rise; their shadows lie on it, and its own on them.",
+            description: "Heaps of cloud among the summits; their shadows lie on the slopes and in the valleys.",
             scene: Scene {
-                camera: from(2_900.0, looking(330.0, -7.0)),
-                sun: sun(255.0, 24.0),
-                clouds: Some(clouds(0.6, vec![Layer::Volume(volume(1_100.0, 1_900.0, 0.5))])),
+                camera: standing([-9_000.0, -3_000.0, 3_300.0], normal(60.0, -11.0)),
+                sun: sun(150.0, 42.0),
+                clouds: Some(clouds(0.35, vec![Layer::Volume(volume(2_000.0, 2_800.0, 0.8))])),
+                display: opened(0.4),
+                terrain: Some(Terrain::Heightfield(alps())),
+                ..Scene::default()
+            },
+        },
+        Preset {
+            name: "sea-of-cloud",
+            title: "Sea of cloud",
+            description: "A valley filled with cloud under the ridges that hold it in.",
+            scene: Scene {
+                camera: standing([-9_000.0, -3_000.0, 2_300.0], normal(60.0, -7.0)),
+                sun: sun(170.0, 30.0),
+                clouds: Some(clouds(0.45, vec![Layer::Volume(volume(700.0, 1_300.0, 0.4))])),
+                display: opened(0.7),
                 terrain: Some(Terrain::Heightfield(alps())),
                 ..Scene::default()
             },
@@ -127,8 +149,27 @@ fn sea(wind_m_s: f64) -> Planet {
 }
 
 fn from(height_m: f64, camera: Camera) -> Camera {
+    standing([0.0, 0.0, height_m], camera)
+}
+
+fn standing(position_m: [f64; 3], camera: Camera) -> Camera {
+    Camera { position_m, ..camera }
+}
+
+/// So many stops more light than the meter says.
+fn opened(compensation_ev: f64) -> Display {
+    Display {
+        exposure: Exposure::Auto { compensation_ev },
+        ..Display::default()
+    }
+}
+
+/// Narrower than [`looking`]: far mountains are large.
+fn normal(azimuth_deg: f64, elevation_deg: f64) -> Camera {
     Camera {
-        position_m: [0.0, 0.0, height_m],
-        ..camera
+        projection: Projection::Perspective {
+            vertical_fov_deg: 50.0,
+        },
+        ..looking(azimuth_deg, elevation_deg)
     }
 }

@@ -62,6 +62,7 @@ fn presets_are_valid_scenes() {
             "from-orbit",
             "alpine-dawn",
             "ridge-and-clouds",
+            "sea-of-cloud",
             "coast",
             "orbit-terminator",
             "fair-weather",
