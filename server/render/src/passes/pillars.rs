@@ -66,8 +66,7 @@ impl PillarsPass {
         let dome_uniform = dome
             .map_or_else(|| Part::new(&DomeUniform::default()), DomeView::uniform)
             .upload(gpu, "dome");
-        let pages = dome.map_or(&nowhere, |dome| &dome.pages);
-        let seen = dome.map_or(inputs.transmittance, |dome| &dome.seen);
+        let (pages, seen) = dome.map_or((&nowhere, &inputs.transmittance.view), |d| (&d.pages, d.seen));
         let [camera, tile, directions] = looks.upload(gpu);
         let none = Part::new(&PolarUniform::default());
         let polar = pillars.polar.as_ref();
@@ -83,7 +82,7 @@ impl PillarsPass {
             Bind::Table(&table.unwrap_or(inputs.transmittance).view),
             Bind::Buffer(&dome_uniform),
             Bind::Buffer(pages),
-            Bind::Table(&seen.view),
+            Bind::Table(seen),
             Bind::Buffer(inputs.lit_ground.unwrap_or(&nowhere)),
             Bind::Buffer(&tile),
             Bind::Buffer(&pillars.lamps.buffer),
