@@ -4,6 +4,7 @@ use super::{Account, Case, Setup, Size, stopwatch::peak_memory_bytes, viewer::Vi
 use crate::{commands::Failure, settings::Settings};
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, json};
+use std::sync::Arc;
 use welkin_scene::{
     Direction, IceCrystals, Quality, Scene, SunPosition, Terrain, Town,
     ice_crystals::CrystalLayer,
@@ -55,6 +56,7 @@ impl Case for Pillars {
             renderer: &*renderer,
             size: setup.size,
             quality: Quality::Final,
+            assets: Arc::default(),
         };
         // Compiles the shaders and finds the size of tiles.
         viewer.see("unmeasured", &scene(ground, 3, 0.0))?;

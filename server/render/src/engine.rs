@@ -5,7 +5,7 @@ use crate::{
     cloud_dome::DomeView,
     cloud_sky::CloudSky,
     cloudscape::{CloudLight, CloudPasses},
-    cpu::airglow::{NightLight, night_light},
+    cpu::airglow::NightLight,
     error::Error,
     gpu::Gpu,
     groundscape::GroundPasses,
@@ -14,7 +14,6 @@ use crate::{
     lights::Lights,
     memo::{Fingerprint, Memo},
     method::Plan,
-    moon_face,
     night::Night,
     noise_cache::DiskCache,
     passes::{
@@ -35,16 +34,19 @@ use crate::{
     screen::{PICTURE_BYTES, RADIANCE_BYTES, Screen},
     shafts::exact_shafts,
     sunlight::Direct,
-    uniforms::{AirUniform, Part, Standpoint, TileUniform, ToneUniform, night::AirglowUniform},
+    uniforms::{AirUniform, Part, Standpoint, TileUniform, ToneUniform},
 };
 use glam::UVec2;
 use std::cell::OnceCell;
 use welkin_scene::{
     Exposure, Method, Quality, Scene,
-    renderer::{FrameFacts, FrameOrder, Output, PassTime},
+    renderer::{FrameOrder, Output, PassTime},
 };
 
+mod kept;
 mod probe;
+
+use kept::{airglow, moon_face};
 
 /// The device with its passes. Fields drop in this order: what was made from the device goes before it.
 pub(crate) struct Engine {
@@ -389,31 +391,5 @@ impl Engine {
             };
             Ok((taken, ev, times))
         })
-    }
-}
-
-/// The picture of the moon, made when a scene first has one.
-fn moon_face(kept: &OnceCell<wgpu::TextureView>, gpu: &Gpu) -> wgpu::TextureView {
-    let side = u32::try_from(moon_face::SIDE).unwrap_or(u32::MAX);
-    kept.get_or_init(|| gpu.picture("moon_face", side, moon_face::face()))
-        .clone()
-}
-
-/// The night sky's own light; summed anew when air or stars change.
-fn airglow(memo: &mut Memo<NightLight>, scene: &Scene, tables: &Tables) -> Part {
-    let glow = scene.atmosphere.as_ref().map(|air| &air.airglow);
-    let made_from = Fingerprint::of((&tables.air, format!("{glow:?} {:?}", scene.stars)));
-    let light = memo.get_or(made_from, || night_light(scene));
-    Part::new(&AirglowUniform::new(scene, &light, tables.stand.altitude_m))
-}
-
-/// What a frame says of itself.
-pub(crate) fn facts(scene: &Scene, direct: &Direct, ev100: Option<f64>) -> FrameFacts {
-    FrameFacts {
-        sun: scene.sun_place(),
-        sun_irradiance_w_m2: direct.sun,
-        moon: scene.moon_place(),
-        moon_irradiance_w_m2: direct.moon,
-        ev100,
     }
 }

@@ -181,7 +181,7 @@ pub(crate) fn cells(
             disc: (radius_m / d + 2.0 * pixel_angle).max(veil),
         };
         for (block, shape) in (0_u32..).zip(&block_cones) {
-            if !shape.as_ref().is_some_and(|cone| wedge.shown(cone) != 0) {
+            if shape.as_ref().is_none_or(|cone| wedge.shown(cone) == 0) {
                 continue;
             }
             let first = UVec2::new(block % blocks.x, block / blocks.x) * BLOCK;

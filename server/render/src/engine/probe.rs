@@ -1,6 +1,9 @@
 //! What a probe asks of the passes.
 
-use super::{Engine, airglow, moon_face};
+use super::{
+    Engine,
+    kept::{airglow, moon_face},
+};
 use crate::{
     cloud_sky::CloudSky,
     cloudscape::CloudLight,

@@ -66,7 +66,7 @@ impl PillarsPass {
         let dome_uniform = dome
             .map_or_else(|| Part::new(&DomeUniform::default()), DomeView::uniform)
             .upload(gpu, "dome");
-        let (pages, seen) = dome.map_or((&nowhere, &inputs.transmittance.view), |d| (&d.pages, d.seen));
+        let (pages, seen) = dome.map_or((&nowhere, &inputs.transmittance.view), |d| (&d.pages, &d.seen));
         let [camera, tile, directions] = looks.upload(gpu);
         let none = Part::new(&PolarUniform::default());
         let polar = pillars.polar.as_ref();

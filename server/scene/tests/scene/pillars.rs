@@ -17,8 +17,8 @@ prop_compose! {
             (1000.0..=2e4, 0.0..=1e9).prop_map(|(k, cd)| (None, Some(Lamp::WhiteLed), Some(k), Some(cd))),
             Just((None, Some(Lamp::Mercury), None, None)),
         ],
-        emission in select([Emission::Isotropic, Emission::CosineUp, Emission::FullCutoff]),
-        above in select([Above::Sphere, Above::Ground]),
+        emission in select(vec![Emission::Isotropic, Emission::CosineUp, Emission::FullCutoff]),
+        above in select(vec![Above::Sphere, Above::Ground]),
     ) -> Light {
         let (radiant_intensity_w_sr, lamp, colour_temperature_k, luminous_intensity_cd) = power;
         Light { position_m, above, radiant_intensity_w_sr, lamp, colour_temperature_k, luminous_intensity_cd, radius_m, emission }
@@ -42,7 +42,7 @@ prop_compose! {
         number_density_per_m3 in 0.0..=1e9,
         plate_area_m2 in 0.0..=1e-4,
         tilt in tilt(),
-        reflectance in select([Reflectance::Slab, Reflectance::Outer]),
+        reflectance in select(vec![Reflectance::Slab, Reflectance::Outer]),
         extinction_per_m in 0.0..=0.1,
         amount in option::of(0.0..=1.0),
     ) -> CrystalLayer {
