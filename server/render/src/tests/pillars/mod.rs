@@ -2,6 +2,7 @@
 
 mod chance;
 mod laws;
+mod obstacles;
 mod oracle;
 
 use super::engine;

@@ -3,7 +3,11 @@
 use super::{dark, lamp, radiance, with};
 use glam::DVec3;
 use serde_json::Value;
-use std::{fs, sync::Arc};
+use std::{
+    fs,
+    hash::{DefaultHasher, Hash, Hasher},
+    sync::Arc,
+};
 use welkin_scene::{
     CrystalLayer, Direction, Haze, IceCrystals, Light, MeshModel, Scene, SunPosition, Terrain,
     assets::{Material, SceneAssets},
@@ -90,6 +94,14 @@ pub(super) fn standing() -> Terrain {
 pub(super) fn black(all: &[[DVec3; 4]]) -> MeshModel {
     let positions: Vec<_> = all.iter().flatten().map(|c| c.as_vec3().to_array()).collect();
     let count = u32::try_from(all.len()).unwrap();
+    // Meshes are kept by what tells them apart.
+    let mut hasher = DefaultHasher::new();
+    positions
+        .iter()
+        .flatten()
+        .for_each(|c| c.to_bits().hash(&mut hasher));
+    let mut digest = [7; 32];
+    digest[..8].copy_from_slice(&hasher.finish().to_le_bytes());
     MeshModel {
         normals: vec![[0.0, 0.0, 1.0]; positions.len()].into(),
         uvs: vec![[0.0; 2]; positions.len()].into(),
@@ -108,7 +120,7 @@ pub(super) fn black(all: &[[DVec3; 4]]) -> MeshModel {
             normal_map: None,
         }],
         textures: Vec::new(),
-        digest: [7; 32],
+        digest,
     }
 }
 
