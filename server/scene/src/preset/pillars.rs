@@ -3,10 +3,12 @@
 use super::{Preset, looking, sun};
 use crate::{
     camera::{Camera, Projection},
+    direction::Direction,
     display::{Display, Exposure},
     document::Scene,
     ice_crystals::{CrystalLayer, CrystalVariation, GaussianTilt, IceCrystals, Tilt},
     lights::{Above, Lamp, Light, ProceduralTown, Town},
+    moon::Moon,
     planet::Planet,
     terrain::{GroundAlbedo, Heightfield, Mountains, PlainAlbedo, Surface, Terrain},
 };
@@ -21,9 +23,9 @@ pub(super) fn presets() -> Vec<Preset> {
             title: "Arctic town",
             description: "A town of 300 lamps at -20 °C under a clear night sky: plates of ice raise a pillar over each.",
             scene: Scene {
-                camera: from(60.0, lens(45.0, looking(0.0, 12.0))),
+                camera: from(25.0, lens(45.0, looking(0.0, 12.0))),
                 sun: sun(330.0, -25.0),
-                moon: None,
+                moon: Some(crescent()),
                 planet: snowy(),
                 terrain: Some(Terrain::Heightfield(hills())),
                 town: Some(Town::Procedural(ProceduralTown {
@@ -37,6 +39,7 @@ pub(super) fn presets() -> Vec<Preset> {
                     top_m: 500.0,
                     number_density_per_m3: 60_000.0,
                     extinction_per_m: 1.2e-4,
+                    tilt: spread(0.9),
                     variation: Some(CrystalVariation {
                         amount: 0.4,
                         ..CrystalVariation::default()
@@ -54,16 +57,13 @@ pub(super) fn presets() -> Vec<Preset> {
             scene: Scene {
                 camera: lens(50.0, looking(0.0, 14.0)),
                 sun: sun(330.0, -30.0),
-                moon: None,
+                moon: Some(crescent()),
                 planet: snowy(),
                 lights: (0..12).map(candle).collect(),
                 ice_crystals: Some(IceCrystals::One(CrystalLayer {
                     top_m: 150.0,
                     number_density_per_m3: 60_000.0,
-                    tilt: Tilt::Gaussian(GaussianTilt {
-                        sigma_deg: 1.0,
-                        max_deg: 4.0,
-                    }),
+                    tilt: spread(1.0),
                     ..CrystalLayer::default()
                 })),
                 display: night(-2.5),
@@ -81,9 +81,10 @@ pub(super) fn presets() -> Vec<Preset> {
                 ice_crystals: Some(IceCrystals::One(CrystalLayer {
                     base_m: 2_500.0,
                     top_m: 5_000.0,
-                    number_density_per_m3: 1_500.0,
+                    number_density_per_m3: 2_500.0,
                     plate_area_m2: 2e-8,
                     extinction_per_m: 2e-5,
+                    tilt: spread(1.8),
                     ..CrystalLayer::default()
                 })),
                 ..Scene::clear()
@@ -97,6 +98,22 @@ fn snowy() -> Planet {
         ground_albedo: SNOW,
         ..Planet::default()
     }
+}
+
+/// Behind the camera: enough for snow and hills to be seen.
+fn crescent() -> Moon {
+    Moon {
+        position: Some(Direction::angles(200.0, 30.0)),
+        phase_angle_deg: Some(110.0),
+        ..Moon::default()
+    }
+}
+
+fn spread(sigma_deg: f64) -> Tilt {
+    Tilt::Gaussian(GaussianTilt {
+        sigma_deg,
+        max_deg: 4.0 * sigma_deg,
+    })
 }
 
 fn night(ev: f64) -> Display {
@@ -141,14 +158,14 @@ fn candle(i: u8) -> Light {
 fn hills() -> Heightfield {
     Heightfield {
         mountains: Some(Mountains {
-            seed: 5,
-            ridge_scale_m: 3_500.0,
+            seed: 2,
+            ridge_scale_m: 2_500.0,
             roughness: 0.3,
-            valley_radius_m: 2_500.0,
+            valley_radius_m: 1_500.0,
             ..Mountains::default()
         }),
         extent_m: Some(24_000.0),
-        height_m: Some(420.0),
+        height_m: Some(300.0),
         surface: Surface {
             albedo: GroundAlbedo::Plain(PlainAlbedo { rgb: SNOW }),
             ..Surface::default()

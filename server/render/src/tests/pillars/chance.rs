@@ -25,7 +25,7 @@ fn ridge_m(x: f64, y: f64) -> f64 {
     (28.0 + 6.0 * (y / 15.0).sin()) * (-off * off).exp()
 }
 
-fn ridge() -> (Terrain, HeightGrid) {
+pub(super) fn ridge() -> (Terrain, HeightGrid) {
     let at = |i: u32| SIDE_M * (f64::from(i) / f64::from(SAMPLES - 1) - 0.5);
     let heights: Vec<f32> = (0..SAMPLES * SAMPLES)
         .map(|i| (ridge_m(250.0 + at(i % SAMPLES), -at(i / SAMPLES)) / MOST_M) as f32)

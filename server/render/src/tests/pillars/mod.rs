@@ -4,6 +4,7 @@ mod chance;
 mod laws;
 mod obstacles;
 mod oracle;
+mod parameters;
 
 use super::engine;
 use crate::passes::probe::Sight;
@@ -48,15 +49,16 @@ fn with(layer: CrystalLayer, lights: Vec<Light>) -> Scene {
     }
 }
 
+fn sights(directions: &[DVec3]) -> Vec<Sight> {
+    let sight = |direction: &DVec3| Sight {
+        direction: direction.normalize(),
+        disc: true,
+    };
+    directions.iter().map(sight).collect()
+}
+
 /// Radiance in the middle band along directions.
 fn radiance(scene: &Scene, assets: &SceneAssets, directions: &[DVec3]) -> Vec<f64> {
-    let sights: Vec<Sight> = directions
-        .iter()
-        .map(|direction| Sight {
-            direction: direction.normalize(),
-            disc: true,
-        })
-        .collect();
-    let (seen, _) = engine().probe(scene, assets, &sights).unwrap();
+    let (seen, _) = engine().probe(scene, assets, &sights(directions)).unwrap();
     seen.iter().map(|seen| seen.radiance[1]).collect()
 }
