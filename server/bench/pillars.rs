@@ -1,14 +1,19 @@
 //! Light pillars: what lamps cost, few and many, in the open and among hills.
 
-use super::{Account, Case, Setup, Size, stopwatch::peak_memory_bytes, viewer::Viewer};
+use super::{
+    Account, Case, Setup, Size, Work,
+    stopwatch::{Stopwatch, peak_memory_bytes},
+    viewer::Viewer,
+};
 use crate::{commands::Failure, settings::Settings};
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, json};
 use std::sync::Arc;
 use welkin_scene::{
-    Direction, IceCrystals, Quality, Scene, SunPosition, Terrain, Town,
+    Direction, IceCrystals, ProbeRequest, Quality, Scene, SunPosition, Terrain, Town,
     ice_crystals::CrystalLayer,
     lights::{Above, ProceduralTown},
+    renderer::Render,
     terrain::{Heightfield, Mountains},
 };
 
@@ -69,6 +74,12 @@ impl Case for Pillars {
             work.varied = Map::from_iter([("lamps".to_owned(), json!(count))]);
             works.push(work);
         }
+        looked_through(&*renderer, ground, 0, 20.0)?;
+        for (turn_deg, count) in [(21.0, 0), (22.0, LOOKED_THROUGH)] {
+            let mut work = looked_through(&*renderer, ground, count, turn_deg)?;
+            work.varied = Map::from_iter([("lamps".to_owned(), json!(count))]);
+            works.push(work);
+        }
         Ok(Account {
             device: renderer.device(),
             works,
@@ -110,4 +121,32 @@ fn scene(ground: Ground, count: u32, turn_deg: f64) -> Scene {
         scene.camera.position_m[2] = 200.0;
     }
     scene
+}
+
+/// Lamps that each of a probe's directions asks for, and directions to a side of the view.
+const LOOKED_THROUGH: u32 = 100;
+const SIDE: u32 = 256;
+
+/// What a pass over the whole screen for each lamp would do, for 256×256 places of the view: a probe has no cells, and
+/// asks every lamp along every direction.
+fn looked_through(renderer: &dyn Render, ground: Ground, count: u32, turn_deg: f64) -> Result<Work, Failure> {
+    let place = |i: u32| (f64::from(i) + 0.5) / f64::from(SIDE) - 0.5;
+    let directions = (0..SIDE * SIDE)
+        .map(|i| Direction::angles(turn_deg + 90.0 * place(i % SIDE), 10.0 + 60.0 * place(i / SIDE)))
+        .collect();
+    let request = ProbeRequest {
+        scene: scene(ground, count, turn_deg),
+        directions,
+    };
+    let watch = Stopwatch::start();
+    pollster::block_on(renderer.probe(request.into()))?;
+    Ok(Work {
+        work: "probe".to_owned(),
+        varied: Map::new(),
+        spent: watch.stop(),
+        passes: Vec::new(),
+        error: None,
+        flip: None,
+        fault: None,
+    })
 }

@@ -5,20 +5,36 @@ use crate::{
     problem::{Problem, Problems, number},
 };
 use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use serde::{Deserialize, Deserializer, Serialize};
 use serde_json::json;
 
 /// Most layers.
 pub const MAX_CRYSTAL_LAYERS: usize = 4;
 
 /// Plates of ice: one layer, or a list of up to four.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 #[serde(untagged)]
 pub enum IceCrystals {
     /// A layer.
     One(CrystalLayer),
     /// Layers.
     Several(#[schemars(length(max = 4))] Vec<CrystalLayer>),
+}
+
+impl<'de> Deserialize<'de> for IceCrystals {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        /// The list first: serde would read an empty one as a layer without a word.
+        #[derive(Deserialize)]
+        #[serde(untagged)]
+        enum Written {
+            Several(Vec<CrystalLayer>),
+            One(CrystalLayer),
+        }
+        Ok(match Written::deserialize(deserializer)? {
+            Written::Several(layers) => Self::Several(layers),
+            Written::One(layer) => Self::One(layer),
+        })
+    }
 }
 
 impl IceCrystals {
