@@ -137,7 +137,7 @@ test('a town of a file is sent, chosen, refused, and made by chance', () =>
       assert.deepEqual([sentScene(page).town.kind, kept.includes(sentScene(page).town.name)], ['asset', true]);
       await telling(page, () => town.selectOption(''));
       assert.equal(sentScene(page).town ?? null, null);
-      await telling(page, () => page.getByRole('button', { name: 'Night' }).click());
+      await telling(page, () => page.getByRole('button', { name: 'Night', exact: true }).click());
       assert.equal(sentScene(page).sun.position.elevation_deg, -25);
       await settled(page);
     },
