@@ -14,7 +14,7 @@ use welkin_scene::{
 fn base() -> Value {
     json!({
         "atmosphere": null, "clouds": null, "moon": null, "stars": null, "shafts": null, "haze": null,
-        "sun": {"irradiance_w_m2": 0},
+        "sun": {"irradiance_w_m2": [0, 0, 0]},
         "time_s": 60,
         "camera": {"position_m": [0, 0, 40]},
         "terrain": {"kind": "heightfield", "name": "ridge", "centre_m": [250, 0], "edge_fade": 0},
