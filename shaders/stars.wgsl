@@ -1,7 +1,6 @@
 // Adds the stars to a tile of the picture. The list holds each pixel once, so that no two threads meet.
 import package::lib::air::Air;
-import package::lib::dome::{Dome, dome_cell, dome_coordinate};
-import package::lib::geometry::edge_cosine;
+import package::lib::dome_left::left_towards;
 import package::lib::light::View;
 import package::lib::stars::light_left;
 
@@ -42,18 +41,8 @@ override GROUND: bool = false;
 @group(0) @binding(6) var<storage, read_write> radiance: array<vec4f>;
 // What they let through, in alpha.
 @group(0) @binding(7) var cloud_table: texture_2d<f32>;
-@group(0) @binding(8) var<uniform> dome: Dome;
-// Where each block of the dome is kept, and what is seen of clouds at their corners.
-@group(0) @binding(9) var<storage, read> dome_pages: array<u32>;
-@group(0) @binding(10) var dome_seen: texture_2d<f32>;
 // Of each pixel, in alpha, how far away that is; else -1.
 @group(0) @binding(11) var<storage, read> lit_ground: array<vec4f>;
-
-fn left_towards(direction: vec3f) -> f32 {
-    let cell = dome_cell(dome, direction, view.up, edge_cosine(air.radius_m, view.altitude_m));
-    let at = dome_coordinate(dome_pages[cell.page], cell.place, textureDimensions(dome_seen));
-    return textureSampleLevel(dome_seen, linear_clamp, at, 0.0).a;
-}
 
 @compute @workgroup_size(64)
 fn stars(@builtin(global_invocation_id) id: vec3u) {
@@ -70,7 +59,7 @@ fn stars(@builtin(global_invocation_id) id: vec3u) {
     let mu = dot(glint.direction, view.up);
     var left = light_left(air, transmittance_table, linear_clamp, view.altitude_m, mu);
     if DOME {
-        left *= left_towards(glint.direction);
+        left *= left_towards(air.radius_m, view.up, view.altitude_m, glint.direction, linear_clamp);
     } else if CLOUDS {
         left *= textureLoad(cloud_table, place, 0).a;
     }

@@ -9,6 +9,7 @@ mod baseline;
 mod clouds;
 mod ground;
 mod page;
+mod pillars;
 mod plots;
 mod process;
 mod report;
@@ -32,7 +33,13 @@ use stopwatch::Spent;
 use welkin_scene::renderer::{DeviceInfo, PassTime};
 
 /// All cases.
-pub(crate) static CASES: [&dyn Case; 4] = [&sky::Sky, &air::Air, &clouds::CloudCase, &ground::Ground];
+pub(crate) static CASES: [&dyn Case; 5] = [
+    &sky::Sky,
+    &air::Air,
+    &clouds::CloudCase,
+    &ground::Ground,
+    &pillars::Pillars,
+];
 
 /// Something to measure.
 pub(crate) trait Case: Sync {

@@ -53,10 +53,13 @@ fn dither_noise(pixel: vec2u) -> vec3f {
 const LENS_VEIL = 0.35;
 const VEIL_STEEPENS_DEG = 2.5;
 
+fn lens_veil(off_deg: f32) -> f32 {
+    return LENS_VEIL / (max(off_deg * off_deg, 0.01) * (1.0 + off_deg / VEIL_STEEPENS_DEG));
+}
+
 fn lens_glare(tone: Tone, angle: f32) -> vec3f {
     let off_deg = degrees(max(angle, tone.glaring_angular_radius));
-    let veil = LENS_VEIL / (max(off_deg * off_deg, 0.01) * (1.0 + off_deg / VEIL_STEEPENS_DEG));
-    return tone.glare * veil * tone.glaring_irradiance;
+    return tone.glare * lens_veil(off_deg) * tone.glaring_irradiance;
 }
 
 // R, G and B of the picture from 0 to 255, before they are dithered. `seen.a` is 0 where the projection sees nothing, else

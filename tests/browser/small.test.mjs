@@ -166,12 +166,13 @@ test('a command quotes what a shell would read', () => {
 });
 
 test('a part that changes its shape keeps what it says', async () => {
-  const known = { sun: () => ({ azimuth_deg: 90, elevation_deg: 0 }), ev: () => 12.34, timeAndPlace: () => ({ time: 'now' }), mapName: async () => 'front', meshName: async () => 'town', mountains: () => ({ kind: 'heightfield', mountains: { seed: 1 } }) };
+  const known = { sun: () => ({ azimuth_deg: 90, elevation_deg: 0 }), ev: () => 12.34, timeAndPlace: () => ({ time: 'now' }), mapName: async () => 'front', meshName: async () => 'town', townName: async () => 'hull', mountains: () => ({ kind: 'heightfield', mountains: { seed: 1 } }) };
   assert.deepEqual(carryOver({ azimuth_deg: 90, elevation_deg: 0 }, [0, 0, 0], known), [1, 0, 0]);
   assert.deepEqual(carryOver({ time: 'x' }, { azimuth_deg: 0, elevation_deg: 0 }, known), { azimuth_deg: 90, elevation_deg: 0 });
   assert.deepEqual(carryOver({ kind: 'auto' }, { kind: 'ev', ev: 0 }, known), { kind: 'ev', ev: 12.3 });
   assert.deepEqual(carryOver({}, { time: '' }, known), { time: 'now' });
   assert.deepEqual(await carryOver({ kind: 'heightfield' }, { kind: 'mesh', name: '', scale: 1 }, known), { kind: 'mesh', name: 'town', scale: 1 });
+  assert.deepEqual(await carryOver({ kind: 'procedural' }, { kind: 'asset', name: '', factor: 0 }, known), { kind: 'asset', name: 'hull', factor: 1 });
   assert.deepEqual(carryOver({ kind: 'mesh' }, { kind: 'heightfield', mountains: null }, known), { kind: 'heightfield', mountains: { seed: 1 } });
   assert.deepEqual(carryOver({ kind: 'auto' }, { kind: 'pupil', gain: 17 }, known), { kind: 'pupil', gain: 17 });
 });

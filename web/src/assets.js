@@ -1,7 +1,7 @@
 /** Files that the server keeps for scenes, by kind and name. */
 import { listAssets, putAsset } from './api.js';
 
-/** @typedef {'weather-maps' | 'heightfields' | 'meshes'} Kind */
+/** @typedef {'weather-maps' | 'heightfields' | 'meshes' | 'lights'} Kind */
 
 const PRECONDITION_FAILED = 412;
 const MOST_TRIES = 100;
@@ -12,6 +12,11 @@ const TERRAIN_ENDS = { png: 'heightfields', tif: 'heightfields', tiff: 'heightfi
 export const terrainKind = (file) => TERRAIN_ENDS[/\.([a-z0-9]+)$/i.exec(file)?.[1].toLowerCase() ?? ''] ?? null;
 
 export const TERRAIN_FILES = Object.keys(TERRAIN_ENDS).map((end) => `.${end}`).join(',');
+
+export const LIGHT_FILES = '.csv,.geojson,.json';
+
+/** True for what may be a list of lamps. @param {string} file */
+export const lightFile = (file) => /\.(csv|geojson|json)$/i.test(file);
 
 /** A name that an asset may have, of a file's name. @param {string} file @param {string} other Where nothing of it is left */
 export const assetName = (file, other) =>

@@ -4,17 +4,22 @@
 
 const ZOOM_PER_WHEEL_PX = 0.0015;
 const WHEEL_LINE_PX = 16;
+/** A hand that presses moves by no more than that, CSS pixels. */
+const TAP_PX = 4;
 
 /**
  * @param {HTMLElement} surface @param {import('./drag.js').Drags} drags @param {import('./camera.js').Camera} camera
+ * @param {(at: Pixel) => void} tap A press that goes nowhere
  */
-export function listenToGestures(surface, drags, camera) {
+export function listenToGestures(surface, drags, camera, tap) {
   /** @type {Map<number, Pixel>} */
   const pointers = new Map();
   /** @type {import('./drag.js').Drag | null} */
   let drag = null;
   /** @type {{middle: Pixel, spread: number} | null} */
   let pinch = null;
+  /** Where the only finger or the first button went down, as long as it stays there. @type {Pixel | null} */
+  let pressed = null;
 
   const place = (/** @type {MouseEvent} */ event) => {
     const box = surface.getBoundingClientRect();
@@ -33,17 +38,21 @@ export function listenToGestures(surface, drags, camera) {
     pointers.set(event.pointerId, place(event));
     if (pointers.size === 1) {
       drag = isLook(event) ? drags.look(place(event)) : drags.begin(place(event));
+      pressed = isLook(event) ? null : place(event);
       surface.dataset.dragging = 'true';
     } else if (pointers.size === 2) {
       drag = null;
+      pressed = null;
       pinch = measurePinch();
     }
   });
 
   surface.addEventListener('pointermove', (event) => {
     if (!pointers.has(event.pointerId)) return;
-    pointers.set(event.pointerId, place(event));
-    drag?.move(place(event));
+    const at = place(event);
+    pointers.set(event.pointerId, at);
+    if (pressed && Math.hypot(at.x - pressed.x, at.y - pressed.y) > TAP_PX) pressed = null;
+    if (!pressed) drag?.move(at);
     if (pinch && pointers.size === 2) {
       const next = measurePinch();
       camera.drag(next.middle.x - pinch.middle.x, next.middle.y - pinch.middle.y);
@@ -53,6 +62,8 @@ export function listenToGestures(surface, drags, camera) {
   });
 
   const end = (/** @type {PointerEvent} */ event) => {
+    if (pressed && event.type === 'pointerup') tap(pressed);
+    pressed = null;
     pointers.delete(event.pointerId);
     drag = null;
     pinch = null;

@@ -11,6 +11,7 @@ import { createFlight } from './fly/flight.js';
 import { createGallery } from './gallery.js';
 import { listenToGestures } from './gestures.js';
 import { createHud } from './hud.js';
+import { createLamps } from './lamps/drawer.js';
 import { bindings, fillHelp, listenToKeys } from './keys.js';
 import { createMark } from './mark.js';
 import { createMoon } from './moon.js';
@@ -58,17 +59,19 @@ async function start() {
   const player = createPlayer(() => performance.now());
   const timeline = createTimelineBar(store, player);
   const painter = createPainter(store, stage, fair, () => drawers.show('painter'));
+  const lamps = createLamps({ store, camera, stage, sun, surface: canvas });
   const gallery = createGallery(presets);
   const surprise = createSurprise(store, byId('surprise', HTMLButtonElement), fair);
   const sky = createSky({ store, stage, sun, moon, hud, player, stopped: timeline.refused, refused: (pointer, message) => panel.complain(pointer, message) || complain(message) });
-  const known = { sun: sun.angles, moon: moon.place, ev: sky.exposure, timeAndPlace: timePlace.current, mapName: painter.mapName, meshName: terrain.meshName, mountains: terrain.mountains, heightfields: terrain.heightfields };
+  const known = { sun: sun.angles, moon: moon.place, ev: sky.exposure, timeAndPlace: timePlace.current, mapName: painter.mapName, meshName: terrain.meshName, townName: lamps.townName, mountains: terrain.mountains, heightfields: terrain.heightfields };
   const suggestions = (/** @type {string} */ pointer) => {
     if (pointer === '/terrain/name') return terrain.names();
+    if (pointer === '/town/name') return lamps.names();
     return pointer.endsWith('/name') ? painter.names() : [];
   };
   const panel = createPanel(store, (value, fresh) => carryOver(value, fresh, known), known, suggestions);
   const narrow = window.matchMedia('(max-width: 720px)');
-  const drawers = createDrawers({ gallery, painter }, () => narrow.matches && panel.show(false));
+  const drawers = createDrawers({ gallery, painter, lamps }, () => narrow.matches && panel.show(false));
   panel.onShow(() => narrow.matches && drawers.close());
   createShare(store, address.link, stage.size);
   const save = createSave(store, stage.size);
@@ -91,10 +94,10 @@ async function start() {
   listenToKeys(keys, flight);
   byId('open-help', HTMLButtonElement).addEventListener('click', () => help.showModal());
   byId('open-save', HTMLButtonElement).addEventListener('click', save.open);
-  listenToGestures(canvas, createDrags({ sun, moon, camera, stage }), camera);
+  listenToGestures(canvas, createDrags({ sun, moon, camera, stage }), camera, lamps.tap);
   if (narrow.matches) panel.show(false);
 
-  sky.run([panel, presets, gallery, painter, timeline, timePlace, terrain, createDome(store, sun, moon), createMark(sun, camera, stage), flight], flight.step);
+  sky.run([panel, presets, gallery, painter, lamps, timeline, timePlace, terrain, createDome(store, sun, moon), createMark(sun, camera, stage), flight], flight.step);
 }
 
 start().catch((error) => complain(`The page cannot start: ${error.message}`));

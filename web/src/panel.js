@@ -6,7 +6,7 @@ import { child, tokens } from './pointer.js';
 import { turnedOn } from './starts.js';
 
 /** Order of the parts that a photographer meets first; others follow as the schema has them. */
-const ORDER = ['camera', 'sun', 'moon', 'stars', 'clouds', 'terrain', 'shafts', 'atmosphere', 'haze', 'planet', 'display'];
+const ORDER = ['camera', 'sun', 'moon', 'stars', 'clouds', 'terrain', 'lights', 'town', 'ice_crystals', 'shafts', 'atmosphere', 'haze', 'planet', 'display'];
 const OPEN = ['sun'];
 
 /** @typedef {import('./fields/row.js').Context} Context */

@@ -2,14 +2,14 @@
 
 use crate::{
     Error, Kind,
-    facts::{Facts, HeightFacts, MeshFacts},
-    heights, mesh, png_file,
+    facts::{Facts, HeightFacts, LampFacts, MeshFacts},
+    heights, lamps, mesh, png_file,
 };
 use std::{
     any::Any,
     panic::{AssertUnwindSafe, catch_unwind},
 };
-use welkin_scene::{HeightGrid, MeshModel, WeatherPicture};
+use welkin_scene::{HeightGrid, LampList, MeshModel, WeatherPicture};
 
 /// A file of one kind as a renderer gets it.
 pub(crate) trait Content: Any + Send + Sync {
@@ -94,6 +94,36 @@ impl Content for MeshModel {
 
     fn read(file: &[u8], digest: [u8; 32]) -> Result<Self, Error> {
         guarded(|| mesh::read(Kind::Meshes.form_of(file)?, file, digest))
+    }
+}
+
+impl Content for LampList {
+    fn digest(&self) -> &[u8; 32] {
+        &self.digest
+    }
+
+    fn bytes(&self) -> u64 {
+        size_of_val(&*self.lights) as u64
+    }
+
+    fn most_bytes(_: &[u8]) -> Result<u64, Error> {
+        Ok(lamps::MOST_BYTES)
+    }
+
+    fn read(file: &[u8], digest: [u8; 32]) -> Result<Self, Error> {
+        let lights = lamps::read(Kind::Lights.form_of(file)?, file)?;
+        Ok(Self {
+            lights: lights.into(),
+            digest,
+        })
+    }
+}
+
+impl From<&LampList> for Facts {
+    fn from(list: &LampList) -> Self {
+        Self::Lamps(LampFacts {
+            lamps: list.lights.len(),
+        })
     }
 }
 

@@ -14,6 +14,15 @@ pub enum Facts {
     Heights(HeightFacts),
     /// Of a mesh.
     Mesh(MeshFacts),
+    /// Of a list of lamps.
+    Lamps(LampFacts),
+}
+
+/// What a list of lamps holds.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct LampFacts {
+    /// How many.
+    pub lamps: usize,
 }
 
 /// What a heightfield holds.

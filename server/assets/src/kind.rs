@@ -14,11 +14,13 @@ pub enum Kind {
     Heightfields,
     /// Triangles with their materials and textures.
     Meshes,
+    /// Lamps of a town.
+    Lights,
 }
 
 impl Kind {
     /// All kinds.
-    pub const ALL: [Self; 3] = [Self::WeatherMaps, Self::Heightfields, Self::Meshes];
+    pub const ALL: [Self; 4] = [Self::WeatherMaps, Self::Heightfields, Self::Meshes, Self::Lights];
 
     /// As paths name it.
     #[must_use]
@@ -27,6 +29,7 @@ impl Kind {
             Self::WeatherMaps => "weather-maps",
             Self::Heightfields => "heightfields",
             Self::Meshes => "meshes",
+            Self::Lights => "lights",
         }
     }
 
@@ -43,6 +46,7 @@ impl Kind {
             Self::WeatherMaps => "a weather map",
             Self::Heightfields => "a heightfield",
             Self::Meshes => "a mesh",
+            Self::Lights => "a list of lamps",
         }
     }
 
@@ -53,6 +57,7 @@ impl Kind {
             Self::WeatherMaps => "a PNG, 8 or 16 bits, grey, RGB, RGBA or palette",
             Self::Heightfields => "a grey PNG of 16 bits, a GeoTIFF or an NPY",
             Self::Meshes => "a .glb, or a .zip of an OBJ with its MTL and textures",
+            Self::Lights => "a CSV with a line of names, or a GeoJSON of points",
         }
     }
 
@@ -63,6 +68,7 @@ impl Kind {
             Self::WeatherMaps => &[Form::Png],
             Self::Heightfields => &[Form::Png, Form::Tiff, Form::Npy],
             Self::Meshes => &[Form::Glb, Form::Zip],
+            Self::Lights => &[Form::GeoJson, Form::Csv],
         }
     }
 
@@ -85,6 +91,7 @@ impl From<AssetKind> for Kind {
             AssetKind::WeatherMap => Self::WeatherMaps,
             AssetKind::Heightfield => Self::Heightfields,
             AssetKind::Mesh => Self::Meshes,
+            AssetKind::Lights => Self::Lights,
         }
     }
 }
@@ -115,6 +122,10 @@ pub enum Form {
     Glb,
     /// An OBJ with what belongs to it, packed.
     Zip,
+    /// Points with properties, in JSON (RFC 7946).
+    GeoJson,
+    /// Values separated by commas, the first line their names (RFC 4180).
+    Csv,
 }
 
 impl Form {
@@ -127,6 +138,8 @@ impl Form {
             Self::Npy => "application/octet-stream",
             Self::Glb => "model/gltf-binary",
             Self::Zip => "application/zip",
+            Self::GeoJson => "application/geo+json",
+            Self::Csv => "text/csv",
         }
     }
 
@@ -138,6 +151,8 @@ impl Form {
             Self::Npy => &[".npy"],
             Self::Glb => &[".glb"],
             Self::Zip => &[".zip"],
+            Self::GeoJson => &[".geojson"],
+            Self::Csv => &[".csv"],
         }
     }
 
@@ -150,6 +165,9 @@ impl Form {
             Self::Npy => &[b"\x93NUMPY"],
             Self::Glb => &[b"glTF"],
             Self::Zip => &[b"PK\x03\x04"],
+            Self::GeoJson => &[b"{"],
+            // Any text: its reader says what is wrong with it.
+            Self::Csv => &[b""],
         }
     }
 }

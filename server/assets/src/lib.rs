@@ -12,6 +12,7 @@ mod facts;
 mod folder;
 mod heights;
 mod kind;
+mod lamps;
 mod mesh;
 mod png_file;
 mod resolve;
@@ -20,7 +21,7 @@ mod store;
 mod tree;
 
 pub use error::Error;
-pub use facts::{Facts, HeightFacts, MeshFacts};
+pub use facts::{Facts, HeightFacts, LampFacts, MeshFacts};
 pub use kind::{Form, Kind, Name};
 pub use mesh::MAX_TRIANGLES;
 pub use png_file::{Colour, MAX_SIDE_PX, PngFacts};

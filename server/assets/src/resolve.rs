@@ -45,6 +45,7 @@ fn take(store: &Store, kind: Kind, name: &str, assets: &mut SceneAssets) -> Resu
     match kind {
         Kind::WeatherMaps => drop(assets.weather_maps.insert(key, store.weather_picture(&asset)?)),
         Kind::Heightfields => drop(assets.heightfields.insert(key, store.height_grid(&asset)?)),
+        Kind::Lights => drop(assets.lights.insert(key, store.lamp_list(&asset)?)),
         Kind::Meshes => drop(assets.meshes.insert(key, store.mesh_model(&asset)?)),
     }
     Ok(())

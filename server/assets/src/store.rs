@@ -15,7 +15,7 @@ use std::{
     path::Path,
     sync::{Arc, Mutex, MutexGuard, PoisonError},
 };
-use welkin_scene::{HeightGrid, MeshModel, WeatherPicture};
+use welkin_scene::{HeightGrid, LampList, MeshModel, WeatherPicture};
 
 /// How much the store takes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
@@ -242,6 +242,14 @@ impl Store {
         self.content(Kind::Meshes, name)
     }
 
+    /// Lamps as a renderer wants them.
+    ///
+    /// # Errors
+    /// As [`Self::weather_picture`].
+    pub fn lamp_list(&self, name: &Name) -> Result<Arc<LampList>, Error> {
+        self.content(Kind::Lights, name)
+    }
+
     fn content<T: Content>(&self, kind: Kind, name: &Name) -> Result<Arc<T>, Error> {
         let asset = self.asset(kind, name)?.ok_or_else(|| unknown(kind, name))?;
         if let Some(found) = self.contents.find(&asset.digest) {
@@ -251,7 +259,7 @@ impl Store {
         self.contents.read(asset.digest, &file)
     }
 
-    /// What a file is. Of a picture its header tells; heights and triangles have to be read.
+    /// What a file is. Of a picture its header tells; what else there is has to be read.
     fn describe(&self, kind: Kind, name: &Name, file: &[u8]) -> Result<Asset, Error> {
         let form = kind.form_of(file)?;
         let digest = Sha256::digest(file).into();
@@ -259,6 +267,7 @@ impl Store {
             Kind::WeatherMaps => Facts::Picture(png_file::facts(file)?),
             Kind::Heightfields => (&*self.contents.read::<HeightGrid>(digest, file)?).into(),
             Kind::Meshes => (&*self.contents.read::<MeshModel>(digest, file)?).into(),
+            Kind::Lights => (&*self.contents.read::<LampList>(digest, file)?).into(),
         };
         Ok(Asset {
             kind,

@@ -70,11 +70,12 @@ fn uniform(cells: u32, under_clouds: bool, left: DiscsLeft) -> Part {
     })
 }
 
-/// The clouds before a picture: by direction, or those of a tile by pixel.
+/// The clouds before a picture: by direction, those of a tile by pixel, or those of a list of directions.
 #[derive(Clone, Copy)]
 pub(crate) enum CloudsSeen<'a> {
     Dome(&'a DomeView),
     Tile(&'a Table),
+    List(&'a wgpu::Buffer),
 }
 
 /// Blocks that a pass is to do.

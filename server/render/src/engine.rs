@@ -2,10 +2,10 @@
 
 use crate::{
     camera::CameraUniform,
-    cloud_dome::{CloudsSeen, DomeView},
+    cloud_dome::DomeView,
     cloud_sky::CloudSky,
     cloudscape::{CloudLight, CloudPasses},
-    cpu::airglow::{NightLight, night_light},
+    cpu::airglow::NightLight,
     error::Error,
     gpu::Gpu,
     groundscape::GroundPasses,
@@ -14,12 +14,13 @@ use crate::{
     lights::Lights,
     memo::{Fingerprint, Memo},
     method::Plan,
-    moon_face,
     night::Night,
     noise_cache::DiskCache,
     passes::{
         exposure::{EXPOSURE_BYTES, ExposurePass, meter_size},
+        ground_view::Looks,
         multi_scattering::{MultiScatteringPass, Wanted},
+        pillars::{PillarsInputs, PillarsPass},
         probe::Probe,
         sky::{CloudInputs, Sky, SkyInputs, SkyTo},
         sky_view::SkyView,
@@ -27,21 +28,25 @@ use crate::{
         tone::{Tone, ToneInputs},
         transmittance::Transmittance,
     },
+    pillars::{PillarPasses, Pillars},
     prepared::{Prepared, Tables, sky_inputs},
     renderer::RendererSettings,
     screen::{PICTURE_BYTES, RADIANCE_BYTES, Screen},
     shafts::exact_shafts,
     sunlight::Direct,
-    uniforms::{AirUniform, Part, Standpoint, TileUniform, ToneUniform, night::AirglowUniform},
+    uniforms::{AirUniform, Part, Standpoint, TileUniform, ToneUniform},
 };
 use glam::UVec2;
 use std::cell::OnceCell;
 use welkin_scene::{
     Exposure, Method, Quality, Scene,
-    renderer::{FrameFacts, FrameOrder, Output, PassTime},
+    renderer::{FrameOrder, Output, PassTime},
 };
 
+mod kept;
 mod probe;
+
+use kept::{airglow, moon_face};
 
 /// The device with its passes. Fields drop in this order: what was made from the device goes before it.
 pub(crate) struct Engine {
@@ -56,6 +61,7 @@ pub(crate) struct Engine {
     probe: Probe,
     clouds: CloudPasses,
     ground: GroundPasses,
+    pillars: (PillarPasses, PillarsPass),
     screen: Screen,
     night_light: Memo<NightLight>,
     direct: Memo<Direct>,
@@ -99,6 +105,7 @@ impl Engine {
             probe,
             clouds,
             ground: GroundPasses::new(),
+            pillars: (PillarPasses::new(), PillarsPass::new()),
             screen: Screen::default(),
             night_light: Memo::new(8),
             direct: Memo::new(8),
@@ -198,6 +205,15 @@ impl Engine {
                     .scape(&mut recorder, &tables, (&sky, textures), light, order.quality)
             });
             let camera = CameraUniform::new(&scene.camera, size_px);
+            let shows = order.output == Output::Display;
+            let glare = if shows { scene.display.glare } else { 0.0 };
+            let pillars = self.pillars.0.scape(
+                &mut recorder,
+                (scene, &order.assets),
+                (&tables.stand, &night),
+                (ground.as_ref(), clouds.as_ref().map(|scape| scape.base_m)),
+                Some((&camera, size_px, glare)),
+            )?;
             let dome = clouds
                 .as_ref()
                 .filter(|_| order.quality == Quality::Preview)
@@ -259,6 +275,7 @@ impl Engine {
                     stars,
                     clouds,
                     ground,
+                    pillars,
                     exposure,
                     dome,
                     by_lattices,
@@ -287,7 +304,8 @@ impl Engine {
             let mut recorder = Recorder::new(gpu);
             let inputs = frame.sky_inputs();
             let stars = frame.stars.as_ref().map(StarsOut::fingerprint);
-            let made_from = Fingerprint::of((inputs.fingerprint(&Part::new(&tile)), stars));
+            let pillars = frame.pillars.as_ref().map(Pillars::fingerprint);
+            let made_from = Fingerprint::of((inputs.fingerprint(&Part::new(&tile)), stars, pillars));
             let (settings, known_ev) = ToneUniform::new(
                 &order.scene,
                 &frame.camera,
@@ -302,9 +320,10 @@ impl Engine {
             };
             let display = order.output == Output::Display;
             // A preview by lattices is made anew sooner than its radiance could be toned.
-            let by_lattices = display && frame.stars.is_none() && frame.by_lattices;
+            let in_one = display && frame.stars.is_none() && frame.pillars.is_none();
+            let by_lattices = in_one && frame.by_lattices;
             // Whoever comes twice turns at the display: for them the radiance is kept.
-            let comes_first = display && frame.stars.is_none() && buffers.shown != Some(made_from);
+            let comes_first = in_one && buffers.shown != Some(made_from);
             let at_once = by_lattices || comes_first;
             // Both emptied until the commands have run.
             let (held, _) = (buffers.holds.take(), buffers.shown.take());
@@ -317,20 +336,29 @@ impl Engine {
                     SkyTo::Radiance(&buffers.radiance)
                 };
                 let (clouds, lit_ground) = self.sky.run(&mut recorder, inputs, tile, to);
+                let seen = frame.clouds_seen(clouds.as_ref());
                 if let Some(stars) = &frame.stars {
                     let reads = StarsInputs {
                         air: inputs.air,
                         view: inputs.view,
                         transmittance: inputs.transmittance,
-                        clouds: frame
-                            .dome
-                            .as_ref()
-                            .map(CloudsSeen::Dome)
-                            .or(clouds.as_ref().map(CloudsSeen::Tile)),
+                        clouds: seen,
                         lit_ground: lit_ground.as_ref(),
                     };
                     self.stars
                         .run(&mut recorder, reads, stars, tile, &buffers.radiance);
+                }
+                if let Some(pillars) = &frame.pillars {
+                    let reads = PillarsInputs {
+                        air: inputs.air,
+                        transmittance: inputs.transmittance,
+                        clouds: seen,
+                        lit_ground: lit_ground.as_ref(),
+                    };
+                    let looks = Looks::Tile(inputs.camera, inputs.plan.projection, tile, inputs.frame_px);
+                    self.pillars
+                        .1
+                        .run(&mut recorder, reads, pillars, looks, &buffers.radiance);
                 }
             }
             let is_held = !by_lattices && (held == Some(made_from) || !at_once);
@@ -366,31 +394,5 @@ impl Engine {
             };
             Ok((taken, ev, times))
         })
-    }
-}
-
-/// The picture of the moon, made when a scene first has one.
-fn moon_face(kept: &OnceCell<wgpu::TextureView>, gpu: &Gpu) -> wgpu::TextureView {
-    let side = u32::try_from(moon_face::SIDE).unwrap_or(u32::MAX);
-    kept.get_or_init(|| gpu.picture("moon_face", side, moon_face::face()))
-        .clone()
-}
-
-/// The night sky's own light; summed anew when air or stars change.
-fn airglow(memo: &mut Memo<NightLight>, scene: &Scene, tables: &Tables) -> Part {
-    let glow = scene.atmosphere.as_ref().map(|air| &air.airglow);
-    let made_from = Fingerprint::of((&tables.air, format!("{glow:?} {:?}", scene.stars)));
-    let light = memo.get_or(made_from, || night_light(scene));
-    Part::new(&AirglowUniform::new(scene, &light, tables.stand.altitude_m))
-}
-
-/// What a frame says of itself.
-pub(crate) fn facts(scene: &Scene, direct: &Direct, ev100: Option<f64>) -> FrameFacts {
-    FrameFacts {
-        sun: scene.sun_place(),
-        sun_irradiance_w_m2: direct.sun,
-        moon: scene.moon_place(),
-        moon_irradiance_w_m2: direct.moon,
-        ev100,
     }
 }

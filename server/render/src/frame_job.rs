@@ -1,17 +1,13 @@
 //! One frame, tile by tile.
 
 use crate::{
-    area::Area,
-    engine::{Engine, facts},
-    error::Error,
-    prepared::Prepared,
-    uniforms::TileUniform,
+    area::Area, engine::Engine, error::Error, prepared::Prepared, sunlight::Direct, uniforms::TileUniform,
 };
 use glam::UVec2;
 use std::{collections::VecDeque, ops::Range, sync::Arc, time::Instant};
 use welkin_scene::{
-    Quality,
-    renderer::{Frame, FrameOrder, OnPass, Output, PassTime, Pixels, Refined},
+    Quality, Scene,
+    renderer::{Frame, FrameFacts, FrameOrder, OnPass, Output, PassTime, Pixels, Refined},
 };
 
 #[cfg(test)]
@@ -220,5 +216,16 @@ fn add_times(all: &mut Vec<PassTime>, more: Vec<PassTime>) {
             Some(known) => known.ms += time.ms,
             None => all.push(time),
         }
+    }
+}
+
+/// What a frame says of itself.
+fn facts(scene: &Scene, direct: &Direct, ev100: Option<f64>) -> FrameFacts {
+    FrameFacts {
+        sun: scene.sun_place(),
+        sun_irradiance_w_m2: direct.sun,
+        moon: scene.moon_place(),
+        moon_irradiance_w_m2: direct.moon,
+        ev100,
     }
 }

@@ -2,7 +2,7 @@
 
 use crate::{
     camera::CameraUniform,
-    cloud_dome::DomeView,
+    cloud_dome::{CloudsSeen, DomeView},
     cloudscape::Cloudscape,
     groundscape::Groundscape,
     lights::{Glare, Lights},
@@ -13,6 +13,7 @@ use crate::{
         sky::{CloudInputs, SkyInputs},
         stars::StarsOut,
     },
+    pillars::Pillars,
     sunlight::Direct,
     uniforms::{Part, Standpoint},
 };
@@ -39,6 +40,7 @@ pub(crate) struct Prepared {
     pub(crate) stars: Option<StarsOut>,
     pub(crate) clouds: Option<Cloudscape>,
     pub(crate) ground: Option<Groundscape>,
+    pub(crate) pillars: Option<Pillars>,
     pub(crate) exposure: Arc<wgpu::Buffer>,
     /// A preview's clouds.
     pub(crate) dome: Option<DomeView>,
@@ -56,6 +58,8 @@ pub(crate) struct Prepared {
 const CLOUD_WORK: u32 = 48;
 /// Of a ray to what stands on the ground.
 const GROUND_WORK: u32 = 4;
+/// Of a lamp that a cell lists: a pixel that reads tables, and as much again in shadow.
+const LAMP_WORK: f64 = 1.0;
 
 impl Prepared {
     pub(crate) fn sky_inputs(&self) -> SkyInputs<'_> {
@@ -69,11 +73,21 @@ impl Prepared {
         }
     }
 
+    /// What clouds let through, by direction or in the tile's table.
+    pub(crate) fn clouds_seen<'a>(&'a self, tile: Option<&'a Table>) -> Option<CloudsSeen<'a>> {
+        let dome = self.dome.as_ref().map(CloudsSeen::Dome);
+        dome.or(tile.map(CloudsSeen::Tile))
+    }
+
     /// About how many times the work of a pixel that reads tables a pixel takes.
     pub(crate) fn work_per_pixel(&self) -> u32 {
         let followed = self.clouds.is_some() && self.dome.is_none();
         let ground = if self.ground.is_some() { GROUND_WORK } else { 0 };
-        self.tables.plan.work_per_pixel() + ground + if followed { CLOUD_WORK } else { 0 }
+        let pillars = self
+            .pillars
+            .as_ref()
+            .map_or(0, |pillars| pillars.work_per_pixel(LAMP_WORK));
+        self.tables.plan.work_per_pixel() + ground + pillars + if followed { CLOUD_WORK } else { 0 }
     }
 }
 

@@ -3,6 +3,7 @@
 pub(crate) mod clouds;
 pub(crate) mod ground;
 pub(crate) mod night;
+pub(crate) mod pillars;
 
 use crate::{camera::CameraUniform, colour, lights::Glare, method::Steps};
 use encase::{ShaderSize, ShaderType, internal::WriteInto};

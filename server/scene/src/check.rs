@@ -6,6 +6,7 @@ use crate::{
     direction::Direction,
     document::Scene,
     frame::FrameDocument,
+    ice_crystals, lights,
     observer::Observer,
     probe::ProbeRequest,
     problem::{Problem, Problems, number},
@@ -56,6 +57,10 @@ impl Check for Scene {
         }
         if let Some(terrain) = &self.terrain {
             terrain::check(terrain, &format!("{at}/terrain"), problems);
+        }
+        lights::check(&self.lights, &format!("{at}/lights"), problems);
+        if let Some(crystals) = &self.ice_crystals {
+            ice_crystals::check(crystals, &format!("{at}/ice_crystals"), problems);
         }
     }
 }

@@ -1,8 +1,19 @@
 //! The scene document.
 
 use crate::{
-    atmosphere::Atmosphere, camera::Camera, clouds::Clouds, display::Display, haze::Haze, moon::Moon,
-    planet::Planet, shafts::Shafts, stars::Stars, sun::Sun, terrain::Terrain,
+    atmosphere::Atmosphere,
+    camera::Camera,
+    clouds::Clouds,
+    display::Display,
+    haze::Haze,
+    ice_crystals::IceCrystals,
+    lights::{Light, Town},
+    moon::Moon,
+    planet::Planet,
+    shafts::Shafts,
+    stars::Stars,
+    sun::Sun,
+    terrain::Terrain,
 };
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -33,6 +44,13 @@ pub struct Scene {
     pub haze: Option<Haze>,
     /// Mountains, or a mesh such as a town, on the planet's sphere; `null` for none.
     pub terrain: Option<Terrain>,
+    /// Lamps. They are seen as small discs; what they light is the plates of ice in the air.
+    #[schemars(length(max = 20_000))]
+    pub lights: Vec<Light>,
+    /// Many more lamps at once; `null` for none.
+    pub town: Option<Town>,
+    /// Plates of ice in the air, over which lamps, sun and moon raise pillars of light; `null` for none.
+    pub ice_crystals: Option<IceCrystals>,
     /// Shafts of light and of shadow that terrain and clouds draw into the air; `null` for none.
     pub shafts: Option<Shafts>,
     /// From radiance to a picture.
@@ -52,6 +70,9 @@ impl Default for Scene {
             clouds: Some(Clouds::default()),
             haze: None,
             terrain: None,
+            lights: Vec::new(),
+            town: None,
+            ice_crystals: None,
             shafts: Some(Shafts::default()),
             display: Display::default(),
         }

@@ -19,6 +19,8 @@ pub mod document;
 mod explain;
 pub mod frame;
 pub mod haze;
+pub mod ice_crystals;
+pub mod lights;
 pub mod lunar;
 pub mod metar;
 pub mod moon;
@@ -41,8 +43,8 @@ pub mod timeline;
 
 pub use airglow::Airglow;
 pub use assets::{
-    AssetKind, AssetReference, HeightGrid, Material, MeshModel, SceneAssets, Texture, WeatherPicture,
-    is_asset_name,
+    AssetKind, AssetReference, HeightGrid, LampList, Material, MeshModel, SceneAssets, Texture,
+    WeatherPicture, is_asset_name,
 };
 pub use atmosphere::{Atmosphere, Method, Mie, Orders, Ozone, Rayleigh};
 pub use bands::Bands;
@@ -54,6 +56,8 @@ pub use display::{Display, Exposure, ToneCurve};
 pub use document::Scene;
 pub use frame::{Format, FrameRequest, Quality};
 pub use haze::Haze;
+pub use ice_crystals::{CrystalLayer, IceCrystals};
+pub use lights::{Light, Town};
 pub use lunar::MoonSeen;
 pub use metar::{MetarAnswer, MetarRequest, ReportFault};
 pub use moon::{Moon, MoonPlace};

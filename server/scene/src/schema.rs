@@ -56,11 +56,26 @@ pub(crate) struct Unit {
 }
 
 /// A suffix stands before any other that it ends in.
-const UNITS: [Unit; 10] = [
+const UNITS: [Unit; 14] = [
     Unit {
         suffix: "_w_m2_sr",
         symbol: "W/m²/sr",
         word: "W/m²/sr",
+    },
+    Unit {
+        suffix: "_w_sr",
+        symbol: "W/sr",
+        word: "W/sr",
+    },
+    Unit {
+        suffix: "_per_m3",
+        symbol: "1/m³",
+        word: "per cubic metre",
+    },
+    Unit {
+        suffix: "_cd",
+        symbol: "cd",
+        word: "candela",
     },
     Unit {
         suffix: "_per_m",
@@ -71,6 +86,11 @@ const UNITS: [Unit; 10] = [
         suffix: "_w_m2",
         symbol: "W/m²",
         word: "W/m²",
+    },
+    Unit {
+        suffix: "_m2",
+        symbol: "m²",
+        word: "square metres",
     },
     Unit {
         suffix: "_deg",

@@ -1,6 +1,9 @@
 //! What a probe asks of the passes.
 
-use super::{Engine, airglow, moon_face};
+use super::{
+    Engine,
+    kept::{airglow, moon_face},
+};
 use crate::{
     cloud_sky::CloudSky,
     cloudscape::CloudLight,
@@ -53,6 +56,13 @@ impl Engine {
                 self.clouds
                     .scape(&mut recorder, &tables, (&sky, textures), light, Quality::Final)
             });
+            let pillars = self.pillars.0.scape(
+                &mut recorder,
+                (scene, assets),
+                (&tables.stand, &night),
+                (ground.as_ref(), clouds.as_ref().map(|scape| scape.base_m)),
+                None,
+            )?;
             recorder.finish(&[], |_| ())?;
             let before = (clouds.as_ref(), ground.as_ref());
             let discs_left = self.probe.discs_left(gpu, before, scene, &tables.stand, &night)?;
@@ -68,6 +78,7 @@ impl Engine {
                 moon: lights.moon(false).zip(moon_stand),
                 clouds: clouds.as_ref(),
                 ground: ground.as_ref(),
+                pillars: pillars.as_ref(),
             };
             Ok((self.probe.run(gpu, inputs, sights)?, discs_left))
         })

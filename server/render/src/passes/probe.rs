@@ -6,9 +6,11 @@ use super::{
     ground_light::LightInputs,
     ground_view::{GroundView, Looks},
     multi_scattering::MultiScattering,
+    pillars::{PillarsInputs, PillarsPass},
     sky::MoonInputs,
 };
 use crate::{
+    cloud_dome::CloudsSeen,
     cloudscape::Cloudscape,
     error::Error,
     gpu::Gpu,
@@ -16,6 +18,7 @@ use crate::{
     kernel::{Bind, Recorder, Variants},
     memo::Memo,
     method::Plan,
+    pillars::Pillars,
     shader,
     sunlight::DiscsLeft,
     uniforms::{
@@ -36,6 +39,7 @@ pub(crate) struct Probe {
     kernels: Variants,
     pub(crate) clouds: CloudProbe,
     ground: GroundTiles,
+    pillars: PillarsPass,
     pub(crate) view: GroundView,
     pub(crate) discs: Memo<DiscsLeft>,
 }
@@ -69,6 +73,7 @@ pub(crate) struct ProbeInputs<'a> {
     pub(crate) moon: Option<(MoonInputs<'a>, Standpoint)>,
     pub(crate) clouds: Option<&'a Cloudscape>,
     pub(crate) ground: Option<&'a Groundscape>,
+    pub(crate) pillars: Option<&'a Pillars>,
 }
 
 impl Probe {
@@ -77,6 +82,7 @@ impl Probe {
             kernels: Variants::new(&shader::PROBE),
             clouds: CloudProbe::new(),
             ground: GroundTiles::new(),
+            pillars: PillarsPass::new(),
             view: GroundView::new(),
             discs: Memo::new(8),
         }
@@ -202,12 +208,58 @@ impl Probe {
         recorder
             .encoder
             .copy_buffer_to_buffer(&answers, 0, &readable, 0, size);
-        let (seen, _) = recorder.finish(&[(&readable, size)], |bytes| {
-            let rows: Vec<[f32; 8]> = bytemuck::pod_collect_to_vec(bytes[0]);
-            rows.iter().map(answer).collect()
+        // Pillars are narrow: sums over all directions leave them out, as they do the discs.
+        let shown = inputs.pillars.filter(|_| sights.iter().any(|s| s.disc));
+        let Some(pillars) = shown else {
+            let (seen, _) = recorder.finish(&[(&readable, size)], |bytes| answers_of(bytes[0]))?;
+            return Ok(seen);
+        };
+        let added = gpu.buffer(
+            "pillars",
+            16 * count,
+            wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_SRC,
+        );
+        let added_readable = gpu.buffer(
+            "pillars",
+            16 * count,
+            wgpu::BufferUsages::COPY_DST | wgpu::BufferUsages::MAP_READ,
+        );
+        let reads = PillarsInputs {
+            air: inputs.air,
+            transmittance: inputs.transmittance,
+            clouds: clouds.as_ref().map(CloudsSeen::List),
+            lit_ground: lit_ground.as_ref(),
+        };
+        self.pillars.run(
+            &mut recorder,
+            reads,
+            pillars,
+            Looks::List(&directions, threads),
+            &added,
+        );
+        recorder
+            .encoder
+            .copy_buffer_to_buffer(&added, 0, &added_readable, 0, 16 * count);
+        let both = [(&readable, size), (&added_readable, 16 * count)];
+        let (seen, _) = recorder.finish(&both, |bytes| {
+            let mut seen = answers_of(bytes[0]);
+            let added: Vec<[f32; 4]> = bytemuck::pod_collect_to_vec(bytes[1]);
+            for ((seen, added), sight) in seen.iter_mut().zip(added).zip(sights) {
+                if sight.disc {
+                    for (to, from) in seen.radiance.iter_mut().zip(added) {
+                        *to += f64::from(from);
+                    }
+                }
+            }
+            seen
         })?;
         Ok(seen)
     }
+}
+
+fn answers_of(bytes: &[u8]) -> Vec<Seen> {
+    let rows: Vec<[f32; 8]> = bytemuck::pod_collect_to_vec(bytes);
+    rows.iter().map(answer).collect()
 }
 
 fn answer(row: &[f32; 8]) -> Seen {

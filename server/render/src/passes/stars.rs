@@ -122,7 +122,7 @@ impl StarsPass {
         let (dome, table) = match inputs.clouds {
             Some(CloudsSeen::Dome(dome)) => (Some(dome), None),
             Some(CloudsSeen::Tile(table)) => (None, Some(table)),
-            None => (None, None),
+            Some(CloudsSeen::List(_)) | None => (None, None),
         };
         let uniform = dome.map_or_else(|| Part::new(&DomeUniform::default()), DomeView::uniform);
         let dome_uniform = uniform.upload(gpu, "dome");

@@ -21,6 +21,7 @@ mod lens;
 mod night;
 mod noise;
 mod phase;
+mod pillars;
 mod scattering;
 mod tables;
 

@@ -1,12 +1,15 @@
 //! What a scene refers to by name, and what a renderer gets for it.
 
+mod lamps;
 mod terrain;
 
+pub use lamps::LampList;
 pub use terrain::{HeightGrid, Material, MeshModel, Texture};
 
 use crate::{
     clouds::{AssetMap, BlendMap, PlainMap, WeatherMap},
     document::Scene,
+    lights::{AssetTown, Town},
     terrain::Terrain,
 };
 use std::{collections::BTreeMap, fmt, sync::Arc};
@@ -74,7 +77,7 @@ macro_rules! known_by_digest {
     )* };
 }
 
-known_by_digest!(WeatherPicture, HeightGrid, MeshModel);
+known_by_digest!(WeatherPicture, HeightGrid, MeshModel, LampList);
 
 /// The assets that a scene refers to, each under its name. Equal where every name stands for the same content.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -85,6 +88,8 @@ pub struct SceneAssets {
     pub heightfields: BTreeMap<String, Arc<HeightGrid>>,
     /// Meshes.
     pub meshes: BTreeMap<String, Arc<MeshModel>>,
+    /// Lamps of towns.
+    pub lights: BTreeMap<String, Arc<LampList>>,
 }
 
 impl SceneAssets {
@@ -109,6 +114,10 @@ impl SceneAssets {
                 digest: mesh.digest,
                 ..MeshModel::default()
             }),
+            lights: bare(&self.lights, |list| LampList {
+                lights: Arc::default(),
+                ..*list
+            }),
         }
     }
 }
@@ -122,6 +131,8 @@ pub enum AssetKind {
     Heightfield,
     /// Triangles.
     Mesh,
+    /// Lamps.
+    Lights,
 }
 
 /// A place in a scene where an asset is named.
@@ -164,6 +175,13 @@ impl Scene {
             pointer: "/terrain/name",
             name,
         }));
+        if let Some(Town::Asset(AssetTown { name, .. })) = &self.town {
+            found.push(AssetReference {
+                kind: AssetKind::Lights,
+                pointer: "/town/name",
+                name,
+            });
+        }
         found
     }
 }
@@ -184,6 +202,7 @@ mod tests {
     #![allow(clippy::unwrap_used, reason = "tests fail by panicking")]
 
     use super::*;
+    use crate::lights::Light;
     use serde_json::json;
 
     #[test]
@@ -242,14 +261,23 @@ mod tests {
                 }),
             )]
             .into(),
+            lights: [(
+                "lamps".to_owned(),
+                Arc::new(LampList {
+                    lights: vec![Light::default()].into(),
+                    digest: [digest / 8; 32],
+                }),
+            )]
+            .into(),
         };
         let bare = assets(0).without_content();
         assert!(bare.weather_maps["front"].rgba.is_empty());
         assert!(bare.heightfields["alps"].heights.is_empty());
         assert!(bare.meshes["town"].positions.is_empty());
+        assert!(bare.lights["lamps"].lights.is_empty());
         assert_eq!(bare, assets(0));
-        for other in [1, 2, 4] {
-            assert_ne!(assets(other).without_content(), assets(other ^ 7));
+        for other in [1, 2, 4, 8] {
+            assert_ne!(assets(other).without_content(), assets(other ^ 15));
             assert_ne!(bare, assets(other));
         }
         assert_ne!(bare, SceneAssets::default());
@@ -300,6 +328,13 @@ mod tests {
             };
             assert_eq!(scene.asset_references(), [reference]);
         }
+        let town = json!({"clouds": null, "town": {"kind": "asset", "name": "hull"}});
+        let reference = AssetReference {
+            kind: AssetKind::Lights,
+            pointer: "/town/name",
+            name: "hull",
+        };
+        assert_eq!(Scene::from_value(&town).unwrap().asset_references(), [reference]);
         let made = Scene::from_value(&json!({"terrain": {"kind": "heightfield"}})).unwrap();
         assert_eq!(made.asset_references(), []);
     }

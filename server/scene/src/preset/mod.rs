@@ -3,6 +3,7 @@
 mod air;
 mod genera;
 mod ground;
+mod pillars;
 mod published;
 mod weather;
 
@@ -43,7 +44,15 @@ pub fn preset(name: &str) -> Option<&'static Preset> {
 
 static PRESETS: LazyLock<Vec<Preset>> = LazyLock::new(|| {
     let [air, weather, genera] = [air::presets(), weather::presets(), genera::presets()];
-    [air, ground::presets(), weather, genera, published::presets()].concat()
+    [
+        air,
+        ground::presets(),
+        weather,
+        genera,
+        pillars::presets(),
+        published::presets(),
+    ]
+    .concat()
 });
 
 fn looking(azimuth_deg: f64, elevation_deg: f64) -> Camera {

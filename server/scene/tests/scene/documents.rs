@@ -79,6 +79,9 @@ fn presets_are_valid_scenes() {
             "cirrus",
             "cirrocumulus",
             "cirrostratus",
+            "arctic-town",
+            "candle-pillars",
+            "sun-pillar",
             "complutense",
             "bauman",
             "horizon"

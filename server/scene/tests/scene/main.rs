@@ -13,6 +13,7 @@ mod metar_air;
 mod metar_clouds;
 mod metar_hostile;
 mod night;
+mod pillars;
 mod properties;
 mod schemas;
 mod strategies;

@@ -203,9 +203,10 @@ prop_compose! {
         haze in option::of(haze()),
         clouds in option::of(crate::clouds::clouds()),
         (terrain, shafts) in (option::of(crate::terrain::terrain()), option::of(crate::terrain::shafts())),
+        (lights, town, ice_crystals) in crate::pillars::pillars(),
         display in display(),
     ) -> Scene {
         let planet = Planet { radius_m, ground_albedo, surface };
-        Scene { time_s, camera, sun, moon, stars, planet, atmosphere, clouds, haze, terrain, shafts, display }
+        Scene { time_s, camera, sun, moon, stars, planet, atmosphere, clouds, haze, terrain, shafts, lights, town, ice_crystals, display }
     }
 }

@@ -2,6 +2,7 @@
 
 use serde_json::{Value, json};
 use welkin_assets::{Kind, MAX_SIDE_PX, MAX_TRIANGLES};
+use welkin_scene::lights::MAX_LIGHTS;
 
 /// One asset. What it holds differs from kind to kind.
 pub(crate) fn asset_schema() -> Value {
@@ -33,10 +34,13 @@ pub(crate) fn asset_schema() -> Value {
         "least": numbers(3, "The least of each coordinate, in the file's units"),
         "most": numbers(3, "The greatest of each coordinate, in the file's units"),
     });
+    let lamps =
+        json!({"lamps": {"type": "integer", "minimum": 0, "maximum": MAX_LIGHTS, "description": "Lamps"}});
     let kinds = [
         (Kind::WeatherMaps, picture),
         (Kind::Heightfields, heights),
         (Kind::Meshes, mesh),
+        (Kind::Lights, lamps),
     ];
     json!({"oneOf": kinds.map(|(kind, facts)| one_kind(kind, facts))})
 }

@@ -46,7 +46,7 @@ pub(crate) async fn list_all(State(service): State<Service>) -> Result<Json<List
 
 /// The assets of one kind.
 #[utoipa::path(get, path = "/v1/assets/{kind}", tag = "assets",
-    params(("kind" = String, Path, description = "`weather-maps`, `heightfields` or `meshes`")),
+    params(("kind" = String, Path, description = "`weather-maps`, `heightfields`, `meshes` or `lights`")),
     responses(
         (status = 200, description = "In the order of their names", content_type = "application/json",
             body = ref("#/components/schemas/Assets")),
@@ -62,7 +62,7 @@ pub(crate) async fn list_kind(
 /// An asset, byte by byte as it was sent.
 #[utoipa::path(get, path = "/v1/assets/{kind}/{name}", tag = "assets",
     params(
-        ("kind" = String, Path, description = "`weather-maps`, `heightfields` or `meshes`"),
+        ("kind" = String, Path, description = "`weather-maps`, `heightfields`, `meshes` or `lights`"),
         ("name" = String, Path, description = "As the list names it"),
         ("If-None-Match" = Option<String>, Header, description = "Tags of the copies one has"),
         ("If-Match" = Option<String>, Header, description = "Tags of what one wants and nothing else")),
@@ -102,7 +102,7 @@ pub(crate) async fn get_asset(
 /// of what one has seen.
 #[utoipa::path(put, path = "/v1/assets/{kind}/{name}", tag = "assets",
     params(
-        ("kind" = String, Path, description = "`weather-maps`, `heightfields` or `meshes`"),
+        ("kind" = String, Path, description = "`weather-maps`, `heightfields`, `meshes` or `lights`"),
         ("name" = String, Path, description = "Up to 64 of a-z, 0-9, _ and -, the first a letter or a digit"),
         ("If-Match" = Option<String>, Header, description = "Tags of what may be replaced"),
         ("If-None-Match" = Option<String>, Header, description = "`*`: nothing may be replaced")),
@@ -157,7 +157,7 @@ pub(crate) async fn put_asset(
 /// Removes an asset. Scenes that name it are refused from then on.
 #[utoipa::path(delete, path = "/v1/assets/{kind}/{name}", tag = "assets",
     params(
-        ("kind" = String, Path, description = "`weather-maps`, `heightfields` or `meshes`"),
+        ("kind" = String, Path, description = "`weather-maps`, `heightfields`, `meshes` or `lights`"),
         ("name" = String, Path, description = "As the list names it"),
         ("If-Match" = Option<String>, Header, description = "Tags of what may be removed")),
     responses((status = 204, description = "It is gone"), Missing, Conditional, Refusals, Busy))]

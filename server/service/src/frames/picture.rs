@@ -12,7 +12,7 @@ use std::{collections::BTreeMap, sync::Arc, time::Duration};
 use tokio::sync::OwnedSemaphorePermit;
 use welkin_encode::{Options, encode, output_for};
 use welkin_scene::{
-    HeightGrid, MeshModel, SceneAssets, WeatherPicture,
+    HeightGrid, LampList, MeshModel, SceneAssets, WeatherPicture,
     frame::{Format, FrameRequest},
     renderer::{FrameFacts, FrameOrder, PassTime, Priority},
 };
@@ -66,7 +66,7 @@ impl Asked {
         #[derive(Serialize)]
         struct Canonical<'a> {
             request: &'a FrameRequest,
-            assets: [BTreeMap<&'a str, String>; 3],
+            assets: [BTreeMap<&'a str, String>; 4],
             build: &'a str,
             device: [&'a str; 3],
         }
@@ -77,6 +77,7 @@ impl Asked {
                 digests(&assets.weather_maps, WeatherPicture::digest_hex),
                 digests(&assets.heightfields, HeightGrid::digest_hex),
                 digests(&assets.meshes, MeshModel::digest_hex),
+                digests(&assets.lights, LampList::digest_hex),
             ],
             build: &service.settings.build,
             device: [&device.adapter, &device.backend, &device.driver],
