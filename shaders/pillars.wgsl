@@ -5,7 +5,7 @@ import package::lib::dome_left::left_towards;
 import package::lib::geometry::{PI, angle_if_near, distance_to_sphere};
 import package::lib::picture::lens_veil;
 import package::lib::pillar::{Lamp, emitted};
-import package::lib::pillar_lamp::let_through;
+import package::lib::pillar_lamp::depth_of;
 import package::lib::pillar_open::open_pillar;
 import package::lib::pillar_polar::SEEN;
 import package::lib::pillar_shaded::{polar, polar_words, shaded_pillar};
@@ -82,7 +82,7 @@ fn lamp_seen(lamp: Lamp, v: vec3f) -> vec3f {
     let to_lamp = lamp.place_m / d;
     let angle = angle_if_near(v, to_lamp);
     let falling = lamp.intensity * emitted(lamp.emission, -to_lamp.z) / (d * d)
-        * let_through(air, lamp.place_m.z, 0.0, d);
+        * exp(-depth_of(air, lamp.place_m.z, 0.0, d));
     let soft = max(scene.pixel_angle, 1e-7);
     let disc = max(lamp.radius_m / d, scene.pixel_angle);
     let drawn = disc > 0.0;

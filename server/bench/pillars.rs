@@ -74,7 +74,7 @@ impl Case for Pillars {
             work.varied = Map::from_iter([("lamps".to_owned(), json!(count))]);
             works.push(work);
         }
-        looked_through(&*renderer, ground, 0, 20.0)?;
+        looked_through(&*renderer, ground, 1, 20.0)?;
         for (turn_deg, count) in [(21.0, 0), (22.0, LOOKED_THROUGH)] {
             let mut work = looked_through(&*renderer, ground, count, turn_deg)?;
             work.varied = Map::from_iter([("lamps".to_owned(), json!(count))]);

@@ -41,13 +41,13 @@ fn mean_density(low_m: f32, rise_m: f32, inverse_height_per_m: f32) -> f32 {
     return share * exp(-low_m * inverse_height_per_m);
 }
 
-// What plates and air let through between two heights over the observer.
-fn let_through(air: Air, from_m: f32, to_m: f32, length_m: f32) -> vec3f {
+// Optical depth of plates and air between two heights over the observer.
+fn depth_of(air: Air, from_m: f32, to_m: f32, length_m: f32) -> vec3f {
     var depth = air_depth(air, ice.altitude_m, from_m, to_m, length_m);
     for (var i = 0u; i < ice.count; i++) {
         depth += ice.layers[i].extinction_per_m * length_in(ice.layers[i], from_m, to_m, length_m);
     }
-    return exp(-depth);
+    return depth;
 }
 
 fn clumped(layer: Crystals, p: vec3f) -> f32 {
@@ -58,27 +58,39 @@ fn clumped(layer: Crystals, p: vec3f) -> f32 {
     return max(1.0 + layer.uneven * 1.6 * perlin3(place - floor(place), CLUMPS, layer.stream), 0.0);
 }
 
-// The sum over the stretch of ψ between two ends, N A / 2b left out.
+// A place on the ray where it mirrors the lamp at an angle ψ.
+struct Mirror {
+    // From the lamp, and from the observer.
+    r: f32,
+    t: f32,
+}
+
+fn mirror_at(fan: Fan, psi: f32) -> Mirror {
+    let gamma = fan.beta + 2.0 * psi;
+    let across = max(sin(fan.beta + gamma), 1e-7);
+    return Mirror(max(fan.d * fan.sin_beta, 1e-6) / across, fan.d * sin(gamma) / across);
+}
+
+// The sum over the stretch of ψ between two ends, N A / 2b left out. What is let through hardly depends on ψ, as the way
+// by the plate is about as long as the straight one: it is found once, in the middle.
 fn mirrored(air: Air, layer: Crystals, lamp: Lamp, fan: Fan, v: vec3f, sin_least: f32, psi0: f32, ends: vec2f) -> vec3f {
     let nodes = nodes_of(layer, ends - psi0);
-    var sum = vec3f(0.0);
+    var sum = 0.0;
     for (var k = 0u; k < ice.three; k++) {
         let weight = nodes.weight[k];
         if weight <= 0.0 {
             break;
         }
         let psi = clamp(psi0 + nodes.x[k], ends.x, ends.y);
-        let gamma = fan.beta + 2.0 * psi;
-        let across = max(sin(fan.beta + gamma), 1e-7);
-        let r = max(fan.d * fan.sin_beta, 1e-6) / across;
-        let t = fan.d * sin(gamma) / across;
-        let p = t * v;
-        let seen = let_through(air, lamp.place_m.z, p.z, r) * let_through(air, p.z, 0.0, t);
-        let density = axes_per_sr(layer, sin_least, psi - psi0) * plate_reflectance(sin(fan.beta + psi), layer.outer)
-            * emitted(lamp.emission, (p.z - lamp.place_m.z) / r) * clumped(layer, p);
-        sum += weight * density * seen;
+        let at = mirror_at(fan, psi);
+        let p = at.t * v;
+        sum += weight * axes_per_sr(layer, sin_least, psi - psi0) * plate_reflectance(sin(fan.beta + psi), layer.outer)
+            * emitted(lamp.emission, (p.z - lamp.place_m.z) / at.r) * clumped(layer, p);
     }
-    return sum;
+    let middle = select(nodes.x.y, 0.5 * (nodes.x.x + nodes.x.y), nodes.weight.z == 0.0);
+    let at = mirror_at(fan, clamp(psi0 + middle, ends.x, ends.y));
+    let height_m = at.t * v.z;
+    return sum * exp(-depth_of(air, lamp.place_m.z, height_m, at.r) - depth_of(air, height_m, 0.0, at.t));
 }
 
 // Stretches of ψ in which one layer mirrors the lamp: about ψ0 - π, ψ0 and ψ0 + π.
