@@ -19,6 +19,7 @@ pub mod document;
 mod explain;
 pub mod frame;
 pub mod haze;
+pub mod job;
 pub mod lunar;
 pub mod metar;
 pub mod moon;
@@ -49,6 +50,7 @@ pub use display::{Display, Exposure, ToneCurve};
 pub use document::Scene;
 pub use frame::{Format, FrameRequest, Quality};
 pub use haze::Haze;
+pub use job::{JobPlan, JobRequest};
 pub use lunar::MoonSeen;
 pub use metar::{MetarAnswer, MetarRequest, ReportFault};
 pub use moon::{Moon, MoonPlace};
@@ -58,7 +60,7 @@ pub use preset::{Preset, preset, presets};
 pub use probe::{Irradiance, ProbeAnswer, ProbeRequest, SunPlace};
 pub use problem::{Problem, SceneError};
 pub use schema::{
-    frame_request_schema, metar_answer_schema, metar_request_schema, probe_request_schema, scene_schema,
+    frame_request_schema, job_request_schema, metar_answer_schema, metar_request_schema, probe_request_schema, scene_schema,
     timeline_schema,
 };
 pub use stars::{Orientation, Stars};

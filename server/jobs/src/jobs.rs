@@ -1,0 +1,182 @@
+//! What one may do with jobs: send, look, stop, and fetch what has come of them.
+
+use crate::{
+    JobError, JobId, Queue, Store, assets,
+    id::Part,
+    queue::State,
+    status::{FileInfo, JobStatus},
+    store::ByteStream,
+};
+use std::{collections::BTreeSet, sync::Arc};
+use welkin_assets::{Kind, Name};
+use welkin_encode::file_extension;
+use welkin_scene::{JobPlan, JobRequest};
+
+/// Jobs in a queue and their results in a store. Clones are the same.
+#[derive(Clone)]
+pub struct Jobs {
+    pub(crate) queue: Queue,
+    pub(crate) store: Store,
+    pub(crate) assets: Option<Arc<welkin_assets::Store>>,
+}
+
+/// A job that was sent.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Sent {
+    /// Its name.
+    pub id: JobId,
+    /// False where the idempotency key stood for it already.
+    pub is_new: bool,
+}
+
+/// A request and all that its frames need from elsewhere, checked.
+pub(crate) struct Checked {
+    pub(crate) plan: JobPlan,
+    /// Names of assets that its scenes refer to.
+    pub(crate) assets: BTreeSet<(Kind, Name)>,
+}
+
+impl Jobs {
+    /// Jobs of a queue and a store. Scenes take their assets from `assets`; what a job names is copied into the store
+    /// when the job is sent, so that workers anywhere have it, and it stays as it was.
+    #[must_use]
+    pub fn new(queue: Queue, store: Store, assets: Option<Arc<welkin_assets::Store>>) -> Self {
+        Self { queue, store, assets }
+    }
+
+    /// Checks a whole job and puts it into the queue. A key stands for one document: sent again, it is the same job.
+    ///
+    /// # Errors
+    /// [`JobError::Scene`] where any frame is not a scene, [`JobError::Assets`] where one names what is not there,
+    /// [`JobError::KeyTaken`]; [`JobError::Queue`] and [`JobError::Store`], after which it may be sent again.
+    pub async fn send(&self, document: String, key: Option<&str>) -> Result<Sent, JobError> {
+        let shelf = self.assets.clone();
+        let checked = beside(move || {
+            let plan = JobPlan::new(JobRequest::from_json(&document)?)?;
+            let assets = assets::named_in(&plan, shelf.as_deref())?;
+            Ok(Checked { plan, assets })
+        });
+        let checked = checked.await?;
+        let document = serde_json::to_string(checked.plan.request()).map_err(|e| JobError::Damaged(e.to_string()))?;
+        let id = JobId::new();
+        let id = match self.queue.add(id, key, &document, checked.plan.count()).await? {
+            None => id,
+            Some(known) => {
+                let record = self.queue.record(known).await?;
+                if record.document != document {
+                    return Err(JobError::KeyTaken {
+                        key: key.unwrap_or_default().to_owned(),
+                        job: known.to_string(),
+                    });
+                }
+                // Whoever sent it first may have gone in the middle of it.
+                if record.state == State::Queueing {
+                    self.complete(known, &checked).await?;
+                }
+                return Ok(Sent { id: known, is_new: false });
+            }
+        };
+        self.complete(id, &checked).await?;
+        Ok(Sent { id, is_new: true })
+    }
+
+    /// Puts assets into the store and tasks into the queue, as far as they are not there.
+    pub(crate) async fn complete(&self, id: JobId, checked: &Checked) -> Result<(), JobError> {
+        for (kind, name) in &checked.assets {
+            assets::freeze(self, id, *kind, name).await?;
+        }
+        let parts: Vec<_> = (0..checked.plan.count()).map(Part::Frame).collect();
+        self.queue.push(id, &parts, checked.plan.request().attempts).await?;
+        self.queue.advance(id, State::Queueing, State::Running).await?;
+        Ok(())
+    }
+
+    /// How a job is doing.
+    ///
+    /// # Errors
+    /// [`JobError::Unknown`], and where queue or store fail.
+    pub async fn status(&self, id: JobId) -> Result<JobStatus, JobError> {
+        self.status_of(self.queue.record(id).await?).await
+    }
+
+    /// How jobs are doing: `most` of those sent before `before`, the last first.
+    ///
+    /// # Errors
+    /// Where queue or store fail.
+    pub async fn list(&self, before: Option<JobId>, most: u32) -> Result<Vec<JobStatus>, JobError> {
+        let mut all = Vec::new();
+        for record in self.queue.records_before(before, most).await? {
+            all.push(self.status_of(record).await?);
+        }
+        Ok(all)
+    }
+
+    /// Stops a job: what waits is not begun, what runs ends at the next tile. What is done stays. A job that has ended
+    /// is left as it is.
+    ///
+    /// # Errors
+    /// [`JobError::Unknown`], and where the queue fails.
+    pub async fn cancel(&self, id: JobId) -> Result<(), JobError> {
+        self.queue.record(id).await?;
+        if self.queue.cancel(id).await? {
+            self.queue.withdraw(id).await?;
+        }
+        Ok(())
+    }
+
+    /// A result by its name: a frame's number, or the name of a file that is made of all of them. Gives also the file's
+    /// own name and its length in bytes.
+    ///
+    /// # Errors
+    /// [`JobError::Unknown`], [`JobError::NoResult`], and where queue or store fail.
+    pub async fn result(&self, id: JobId, name: &str) -> Result<(FileInfo, ByteStream), JobError> {
+        let record = self.queue.record(id).await?;
+        let none = || JobError::NoResult {
+            job: id.to_string(),
+            name: name.chars().take(80).collect(),
+        };
+        let (path, file) = if let Ok(number) = name.parse::<u32>() {
+            let request: JobRequest = serde_json::from_str(&record.document).map_err(|e| JobError::Damaged(e.to_string()))?;
+            let extension = file_extension(request.format());
+            (id.frame(number, extension), format!("{number:06}.{extension}"))
+        } else {
+            // Only what jobs make: the store may hold other things.
+            let files = self.files(id).await?;
+            let file = files.into_iter().find(|file| file.name == name).ok_or_else(none)?;
+            (id.whole(&file.name), file.name)
+        };
+        let (bytes, stream) = self.store.stream(&path).await?.ok_or_else(none)?;
+        Ok((FileInfo { name: file, bytes }, stream))
+    }
+
+    /// Files that were made of all frames of a job.
+    pub(crate) async fn files(&self, id: JobId) -> Result<Vec<FileInfo>, JobError> {
+        let folder = id.whole("");
+        let found = self.store.list_folder(&folder).await?;
+        Ok(found
+            .into_iter()
+            .filter_map(|(path, bytes)| {
+                let name = path.filename()?.to_owned();
+                Some(FileInfo { name, bytes })
+            })
+            .collect())
+    }
+
+    /// Tasks of all jobs that wait, those that run, and workers that were heard of lately.
+    ///
+    /// # Errors
+    /// Where the queue fails.
+    pub async fn load(&self, heartbeat_s: u32) -> Result<(u64, u64, u64), JobError> {
+        let (waiting, running) = self.queue.depth().await?;
+        let workers = self.queue.workers(3 * i64::from(heartbeat_s)).await?;
+        Ok((waiting, running, workers))
+    }
+}
+
+/// Runs what takes long beside the asynchronous work.
+pub(crate) async fn beside<T: Send + 'static>(
+    work: impl FnOnce() -> Result<T, JobError> + Send + 'static,
+) -> Result<T, JobError> {
+    let done = tokio::task::spawn_blocking(work).await;
+    done.map_err(|e| JobError::Damaged(format!("a thread ended early: {e}")))?
+}
