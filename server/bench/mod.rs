@@ -7,6 +7,7 @@
 mod air;
 mod baseline;
 mod clouds;
+mod jobs;
 mod page;
 mod plots;
 mod process;
@@ -31,7 +32,7 @@ use stopwatch::Spent;
 use welkin_scene::renderer::{DeviceInfo, PassTime};
 
 /// All cases.
-pub(crate) static CASES: [&dyn Case; 3] = [&sky::Sky, &air::Air, &clouds::CloudCase];
+pub(crate) static CASES: [&dyn Case; 4] = [&sky::Sky, &air::Air, &clouds::CloudCase, &jobs::JobCase];
 
 /// Something to measure.
 pub(crate) trait Case: Sync {

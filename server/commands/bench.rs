@@ -15,9 +15,9 @@ use std::{
 /// Arguments of `welkin bench`.
 #[derive(clap::Args)]
 pub(crate) struct Args {
-    /// What to measure: sky, air, clouds [default: all]
+    /// What to measure: sky, air, clouds, jobs [default: all]
     name: Option<String>,
-    /// Of how many runs each figure is the median [default: 7; clouds: 3]
+    /// Of how many runs each figure is the median [default: 7; clouds: 3; jobs: 1]
     #[arg(long, value_name = "COUNT", value_parser = clap::value_parser!(u32).range(1..))]
     rounds: Option<u32>,
     /// Sizes of frames instead of the case's own, for example 640x360,1920x1080

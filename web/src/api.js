@@ -29,6 +29,12 @@ export const postFrame = async (request, signal) => (await post('v1/frames', req
 /** The scene that a weather report tells. @param {{metar: string, date: string | null}} report @returns {Promise<any>} */
 export const postReport = async (report) => (await post('v1/scenes/from-metar', report)).json();
 
+/** Stops a job. @param {string} id */
+export async function stopJob(id) {
+  const response = await fetch(`v1/jobs/${id}`, { method: 'DELETE' });
+  if (!response.ok) throw await failure(response);
+}
+
 const MAPS = 'v1/assets/weather-maps';
 
 /** @typedef {{name: string, bytes: number, sha256: string, width_px: number, height_px: number}} Asset */

@@ -10,6 +10,7 @@ import { createDrawers } from './drawers.js';
 import { createGallery } from './gallery.js';
 import { listenToGestures } from './gestures.js';
 import { createHud } from './hud.js';
+import { createJobs } from './jobs.js';
 import { bindings, fillHelp, listenToKeys } from './keys.js';
 import { createMark } from './mark.js';
 import { createMoon } from './moon.js';
@@ -62,7 +63,7 @@ async function start() {
   const suggestions = (/** @type {string} */ pointer) => (pointer.endsWith('/name') ? painter.names() : []);
   const panel = createPanel(store, (value, fresh) => carryOver(value, fresh, known), known, suggestions);
   const narrow = window.matchMedia('(max-width: 720px)');
-  const drawers = createDrawers({ gallery, painter }, () => narrow.matches && panel.show(false));
+  const drawers = createDrawers({ gallery, painter, jobs: createJobs() }, () => narrow.matches && panel.show(false));
   panel.onShow(() => narrow.matches && drawers.close());
   createShare(store, address.link, stage.size);
   const save = createSave(store, stage.size);

@@ -35,18 +35,24 @@ pub(crate) fn named_in(plan: &JobPlan, shelf: Option<&Store>) -> Result<BTreeSet
 
 fn named_by(scene: &Scene) -> Result<Vec<(Kind, Name)>, JobError> {
     let references = scene.weather_map_references();
-    let named = references.iter().map(|r| Ok((Kind::WeatherMaps, Name::new(r.name)?)));
+    let named = references
+        .iter()
+        .map(|r| Ok((Kind::WeatherMaps, Name::new(r.name)?)));
     named.collect()
 }
 
 /// Copies an asset into the store of results, unless it is there.
 pub(crate) async fn freeze(jobs: &Jobs, id: JobId, kind: Kind, name: &Name) -> Result<(), JobError> {
     let Some(shelf) = jobs.assets.clone() else {
-        return Err(JobError::Damaged("a job's assets were found, and are gone".into()));
+        return Err(JobError::Damaged(
+            "a job's assets were found, and are gone".into(),
+        ));
     };
     let asset = name.clone();
     let file = beside(move || Ok(shelf.file(kind, &asset)?.1)).await?;
-    jobs.store.put_new(&id.asset(kind, name), Bytes::from(file)).await?;
+    jobs.store
+        .put_new(&id.asset(kind, name), Bytes::from(file))
+        .await?;
     Ok(())
 }
 
@@ -63,9 +69,13 @@ pub(crate) async fn thaw(
     named: BTreeSet<(Kind, Name)>,
 ) -> Result<Arc<Thawed>, JobError> {
     if named.is_empty() {
-        return Ok(Arc::new(Thawed { store: None, _folder: None }));
+        return Ok(Arc::new(Thawed {
+            store: None,
+            _folder: None,
+        }));
     }
-    let folder = TempDir::with_prefix("welkin-job-").map_err(JobError::file("making a folder for a job's assets"))?;
+    let folder =
+        TempDir::with_prefix("welkin-job-").map_err(JobError::file("making a folder for a job's assets"))?;
     let limits = Limits {
         max_asset_bytes: u64::MAX,
         max_assets: u32::MAX,
@@ -75,7 +85,8 @@ pub(crate) async fn thaw(
     for (kind, name) in named {
         let path = id.asset(kind, &name);
         let file = results.get(&path).await?;
-        let file = file.ok_or_else(|| JobError::Damaged(format!("{path} is missing in the store of results")))?;
+        let file =
+            file.ok_or_else(|| JobError::Damaged(format!("{path} is missing in the store of results")))?;
         let store = Arc::clone(&store);
         beside(move || {
             store.put(kind, &name, &file, |_| true)?;
@@ -84,7 +95,10 @@ pub(crate) async fn thaw(
         .await?;
     }
     let store = Arc::into_inner(store);
-    Ok(Arc::new(Thawed { store, _folder: Some(folder) }))
+    Ok(Arc::new(Thawed {
+        store,
+        _folder: Some(folder),
+    }))
 }
 
 impl Thawed {

@@ -1,13 +1,6 @@
 //! One frame of a job: rendered, encoded, put into the store.
 
-use crate::{
-    JobError, JobId, Store,
-    assets::Thawed,
-    jobs::beside,
-    metrics,
-    store::is_lasting,
-    worker::Calm,
-};
+use crate::{JobError, JobId, Store, assets::Thawed, jobs::beside, metrics, store::is_lasting, worker::Calm};
 use bytes::Bytes;
 use serde_json::{Value, json};
 use std::{
@@ -106,9 +99,8 @@ impl Bench {
             ..Options::default()
         };
         let encoded = Arc::clone(&frame);
-        let bytes = beside(move || {
-            encode(&encoded, format, &options).map_err(|e| JobError::Damaged(e.to_string()))
-        });
+        let bytes =
+            beside(move || encode(&encoded, format, &options).map_err(|e| JobError::Damaged(e.to_string())));
         let bytes = Bytes::from(bytes.await?);
         let encoding = begun.elapsed();
         metrics::stage("encode", encoding);
@@ -117,7 +109,10 @@ impl Bench {
         let path = job.id.frame(number, file_extension(format));
         let length = bytes.len();
         self.patiently("store", || async {
-            self.store.put_new(&path, bytes.clone()).await.map_err(Trouble::from)
+            self.store
+                .put_new(&path, bytes.clone())
+                .await
+                .map_err(Trouble::from)
         })
         .await?;
         let storing = begun.elapsed();
@@ -142,7 +137,12 @@ impl Bench {
         }
     }
 
-    async fn probe(&self, job: &Loaded, planned: &PlannedFrame, assets: &Arc<SceneAssets>) -> Result<Value, Trouble> {
+    async fn probe(
+        &self,
+        job: &Loaded,
+        planned: &PlannedFrame,
+        assets: &Arc<SceneAssets>,
+    ) -> Result<Value, Trouble> {
         let directions = &job.plan.request().probe;
         if directions.is_empty() {
             return Ok(Value::Null);
@@ -187,7 +187,10 @@ impl Bench {
                 Err(Trouble::Passing(reason)) => {
                     tracing::warn!(stage, reason, "to be tried again");
                     metrics::retried(stage);
-                    if timeout(Duration::from_millis(pause), stopping.wait_for(|stop| *stop)).await.is_ok() {
+                    if timeout(Duration::from_millis(pause), stopping.wait_for(|stop| *stop))
+                        .await
+                        .is_ok()
+                    {
                         return Err(Trouble::Stopping);
                     }
                 }

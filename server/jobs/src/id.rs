@@ -92,6 +92,8 @@ impl Part {
 pub(crate) struct Task {
     pub(crate) job: String,
     pub(crate) part: Part,
+    /// When it was put into the queue, milliseconds since 1970.
+    pub(crate) queued_ms: i64,
 }
 
 #[cfg(test)]
@@ -104,7 +106,12 @@ mod tests {
     fn a_job_has_one_spelling() {
         let id = JobId::new();
         assert_eq!(id.to_string().parse::<JobId>().unwrap(), id);
-        for other in [id.to_string().to_lowercase(), String::new(), "../x".into(), "x".repeat(1000)] {
+        for other in [
+            id.to_string().to_lowercase(),
+            String::new(),
+            "../x".into(),
+            "x".repeat(1000),
+        ] {
             assert!(other.parse::<JobId>().is_err(), "{other}");
         }
     }

@@ -3,11 +3,12 @@
 use crate::{
     JobError, JobId, Queue, Store, assets,
     id::Part,
+    metrics,
     queue::State,
     status::{FileInfo, JobStatus},
     store::ByteStream,
 };
-use std::{collections::BTreeSet, sync::Arc};
+use std::{collections::BTreeSet, sync::Arc, time::Duration};
 use welkin_assets::{Kind, Name};
 use welkin_encode::file_extension;
 use welkin_scene::{JobPlan, JobRequest};
@@ -57,7 +58,8 @@ impl Jobs {
             Ok(Checked { plan, assets })
         });
         let checked = checked.await?;
-        let document = serde_json::to_string(checked.plan.request()).map_err(|e| JobError::Damaged(e.to_string()))?;
+        let document =
+            serde_json::to_string(checked.plan.request()).map_err(|e| JobError::Damaged(e.to_string()))?;
         let id = JobId::new();
         let id = match self.queue.add(id, key, &document, checked.plan.count()).await? {
             None => id,
@@ -73,7 +75,10 @@ impl Jobs {
                 if record.state == State::Queueing {
                     self.complete(known, &checked).await?;
                 }
-                return Ok(Sent { id: known, is_new: false });
+                return Ok(Sent {
+                    id: known,
+                    is_new: false,
+                });
             }
         };
         self.complete(id, &checked).await?;
@@ -86,7 +91,9 @@ impl Jobs {
             assets::freeze(self, id, *kind, name).await?;
         }
         let parts: Vec<_> = (0..checked.plan.count()).map(Part::Frame).collect();
-        self.queue.push(id, &parts, checked.plan.request().attempts).await?;
+        self.queue
+            .push(id, &parts, checked.plan.request().attempts)
+            .await?;
         self.queue.advance(id, State::Queueing, State::Running).await?;
         Ok(())
     }
@@ -136,17 +143,34 @@ impl Jobs {
             name: name.chars().take(80).collect(),
         };
         let (path, file) = if let Ok(number) = name.parse::<u32>() {
-            let request: JobRequest = serde_json::from_str(&record.document).map_err(|e| JobError::Damaged(e.to_string()))?;
+            let request: JobRequest =
+                serde_json::from_str(&record.document).map_err(|e| JobError::Damaged(e.to_string()))?;
             let extension = file_extension(request.format());
             (id.frame(number, extension), format!("{number:06}.{extension}"))
         } else {
             // Only what jobs make: the store may hold other things.
             let files = self.files(id).await?;
-            let file = files.into_iter().find(|file| file.name == name).ok_or_else(none)?;
+            let file = files
+                .into_iter()
+                .find(|file| file.name == name)
+                .ok_or_else(none)?;
             (id.whole(&file.name), file.name)
         };
         let (bytes, stream) = self.store.stream(&path).await?.ok_or_else(none)?;
         Ok((FileInfo { name: file, bytes }, stream))
+    }
+
+    /// What workers have spent rendering frames of a job that are done, all together.
+    ///
+    /// # Errors
+    /// Where the queue fails.
+    pub async fn rendering(&self, id: JobId) -> Result<Duration, JobError> {
+        let settled = self.queue.settled(id).await?;
+        let ms: f64 = settled
+            .iter()
+            .filter_map(|frame| frame.told["render_ms"].as_f64())
+            .sum();
+        Ok(Duration::from_secs_f64(ms / 1e3))
     }
 
     /// Files that were made of all frames of a job.
@@ -162,14 +186,16 @@ impl Jobs {
             .collect())
     }
 
-    /// Tasks of all jobs that wait, those that run, and workers that were heard of lately.
+    /// Tells the recorder of metrics how many tasks of all jobs wait and run, and how many workers were heard of lately.
     ///
     /// # Errors
     /// Where the queue fails.
-    pub async fn load(&self, heartbeat_s: u32) -> Result<(u64, u64, u64), JobError> {
+    pub async fn tell_load(&self, heartbeat_s: u32) -> Result<(), JobError> {
+        metrics::describe();
         let (waiting, running) = self.queue.depth().await?;
         let workers = self.queue.workers(3 * i64::from(heartbeat_s)).await?;
-        Ok((waiting, running, workers))
+        metrics::load((waiting, running, workers));
+        Ok(())
     }
 }
 

@@ -8,6 +8,7 @@
 
 mod assets;
 mod error;
+mod film;
 mod frame;
 mod gather;
 mod id;

@@ -1,7 +1,7 @@
 //! Numbers for operators. Whoever runs the process decides where they go.
 
 use metrics::{Unit, counter, describe_counter, describe_gauge, describe_histogram, gauge, histogram};
-use std::time::Duration;
+use std::{sync::Once, time::Duration};
 use welkin_scene::renderer::Frame;
 
 const FRAMES: &str = "welkin_job_frames_total";
@@ -15,13 +15,27 @@ const WORKERS: &str = "welkin_jobs_workers";
 
 /// Says what the numbers are; once for a recorder.
 pub(crate) fn describe() {
-    describe_counter!(FRAMES, "Frames of jobs that this process ended, by outcome");
-    describe_counter!(RETRIES, "Times that this process tried something again, by stage");
-    describe_histogram!(WAIT, Unit::Seconds, "Time from a task's place in the queue to its begin");
-    describe_histogram!(STAGE, Unit::Seconds, "Time of one stage of a job's frame: render, encode, store");
-    describe_gauge!(WAITING, "Tasks of jobs that wait, on all machines");
-    describe_gauge!(RUNNING, "Tasks of jobs that run, on all machines");
-    describe_gauge!(WORKERS, "Workers whose heartbeat was heard lately, on all machines");
+    static ONCE: Once = Once::new();
+    ONCE.call_once(|| {
+        describe_counter!(FRAMES, "Frames of jobs that this process ended, by outcome");
+        describe_counter!(RETRIES, "Times that this process tried something again, by stage");
+        describe_histogram!(
+            WAIT,
+            Unit::Seconds,
+            "Time from a task's place in the queue to its begin"
+        );
+        describe_histogram!(
+            STAGE,
+            Unit::Seconds,
+            "Time of one stage of a job's frame: render, encode, store"
+        );
+        describe_gauge!(WAITING, "Tasks of jobs that wait, on all machines");
+        describe_gauge!(RUNNING, "Tasks of jobs that run, on all machines");
+        describe_gauge!(
+            WORKERS,
+            "Workers whose heartbeat was heard lately, on all machines"
+        );
+    });
 }
 
 pub(crate) fn ended(outcome: &'static str) {
@@ -46,7 +60,10 @@ pub(crate) fn passes(frame: &Frame) {
     }
 }
 
-#[allow(clippy::cast_precision_loss, reason = "2^53 tasks are more than a queue holds")]
+#[allow(
+    clippy::cast_precision_loss,
+    reason = "2^53 tasks are more than a queue holds"
+)]
 pub(crate) fn load((waiting, running, workers): (u64, u64, u64)) {
     gauge!(WAITING).set(waiting as f64);
     gauge!(RUNNING).set(running as f64);

@@ -66,7 +66,8 @@ impl Jobs {
             ref notes,
             ..
         } = record;
-        let document: Value = serde_json::from_str(&record.document).map_err(|e| JobError::Damaged(e.to_string()))?;
+        let document: Value =
+            serde_json::from_str(&record.document).map_err(|e| JobError::Damaged(e.to_string()))?;
         let text = |value: &Value| value.as_str().map(str::to_owned);
         let counts = self.queue.counts(id).await?;
         let failures = match counts.failed {
@@ -105,7 +106,13 @@ impl Jobs {
     }
 
     #[allow(clippy::cast_precision_loss, reason = "milliseconds of a job")]
-    async fn rate(&self, id: JobId, created_ms: i64, ended_ms: Option<i64>, counts: Counts) -> Result<f64, JobError> {
+    async fn rate(
+        &self,
+        id: JobId,
+        created_ms: i64,
+        ended_ms: Option<i64>,
+        counts: Counts,
+    ) -> Result<f64, JobError> {
         let lasted_s = |end_ms: i64| ((end_ms - created_ms) as f64 / 1e3).max(1.0);
         if let Some(ended_ms) = ended_ms {
             return Ok(f64::from(counts.done) / lasted_s(ended_ms));

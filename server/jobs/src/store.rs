@@ -4,8 +4,8 @@ use crate::JobError;
 use bytes::Bytes;
 use futures_util::{StreamExt, TryStreamExt};
 use object_store::{
-    ObjectStore, ObjectStoreExt, PutMode, PutOptions, RetryConfig, WriteMultipart,
-    aws::AmazonS3Builder, local::LocalFileSystem, path::Path, prefix::PrefixStore,
+    ObjectStore, ObjectStoreExt, PutMode, PutOptions, RetryConfig, WriteMultipart, aws::AmazonS3Builder,
+    local::LocalFileSystem, path::Path, prefix::PrefixStore,
 };
 use std::{error::Error as _, fs, io, path::Path as FilePath, sync::Arc, time::Duration};
 use tokio::io::AsyncReadExt;
@@ -129,7 +129,9 @@ pub type ByteStream = futures_util::stream::BoxStream<'static, io::Result<Bytes>
 
 /// True where trying again soon would not help: the place is full, read-only or not ours.
 pub(crate) fn is_lasting(error: &JobError) -> bool {
-    let JobError::Store(error) = error else { return false };
+    let JobError::Store(error) = error else {
+        return false;
+    };
     if matches!(
         error,
         object_store::Error::PermissionDenied { .. } | object_store::Error::Unauthenticated { .. }
@@ -140,7 +142,10 @@ pub(crate) fn is_lasting(error: &JobError) -> bool {
     while let Some(error) = cause {
         if let Some(error) = error.downcast_ref::<io::Error>() {
             use io::ErrorKind::{PermissionDenied, QuotaExceeded, ReadOnlyFilesystem, StorageFull};
-            return matches!(error.kind(), PermissionDenied | QuotaExceeded | ReadOnlyFilesystem | StorageFull);
+            return matches!(
+                error.kind(),
+                PermissionDenied | QuotaExceeded | ReadOnlyFilesystem | StorageFull
+            );
         }
         cause = error.source();
     }

@@ -60,16 +60,23 @@ impl Jobs {
 
     async fn close_frames(&self, record: &Record) -> Result<(), JobError> {
         if !self.queue.is_open(record.id).await?
-            && self.queue.advance(record.id, State::Running, State::Gathering).await?
+            && self
+                .queue
+                .advance(record.id, State::Running, State::Gathering)
+                .await?
         {
-            self.queue.push(record.id, &[Part::Gather], GATHER_ATTEMPTS).await?;
+            self.queue
+                .push(record.id, &[Part::Gather], GATHER_ATTEMPTS)
+                .await?;
         }
         Ok(())
     }
 
     async fn close(&self, record: &Record) -> Result<(), JobError> {
         // Where it is there, this changes nothing; where the one before went between two steps, it is the second.
-        self.queue.push(record.id, &[Part::Gather], GATHER_ATTEMPTS).await?;
+        self.queue
+            .push(record.id, &[Part::Gather], GATHER_ATTEMPTS)
+            .await?;
         if self.queue.is_open(record.id).await? {
             return Ok(());
         }

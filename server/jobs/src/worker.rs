@@ -6,6 +6,7 @@ use crate::{
     id::{Part, Task},
     jobs::beside,
     metrics,
+    queue::now_ms,
 };
 use apalis::{
     layers::WorkerBuilderExt,
@@ -181,6 +182,10 @@ async fn work(task: Task, attempt: Attempt, shop: Data<Arc<Shop>>) -> Result<Val
 impl Shop {
     async fn work(&self, task: &Task, attempt: usize) -> Result<Value, BoxDynError> {
         let abort = |reason: String| -> BoxDynError { Box::new(AbortError::new(reason)) };
+        if attempt == 1 {
+            let waited_ms = u64::try_from(now_ms() - task.queued_ms).unwrap_or_default();
+            metrics::waited(Duration::from_millis(waited_ms));
+        }
         let id: JobId = task.job.parse().map_err(|e: JobError| abort(e.to_string()))?;
         let attempts = usize::try_from(self.load(id).await?.plan.request().attempts).unwrap_or(usize::MAX);
         // A worker's death leaves no reason; a task that was begun so often has been too much for several.
@@ -209,7 +214,11 @@ impl Shop {
                 tracing::warn!(job = %id, part = ?task.part, attempt, %trouble, "not done");
                 let last = attempt >= attempts || matches!(trouble, Trouble::Lasting(_));
                 metrics::ended(if last { "failed" } else { "again" });
-                Err(if last { abort(trouble.to_string()) } else { trouble.into() })
+                Err(if last {
+                    abort(trouble.to_string())
+                } else {
+                    trouble.into()
+                })
             }
         }
     }

@@ -158,7 +158,8 @@ impl Renderer {
     }
 
     fn queue_window(&self, order: FrameOrder, window: Window) -> Reply<Arc<Frame>> {
-        let beyond = |first: u32, size: u32, whole: u32| first.checked_add(size).is_none_or(|end| end > whole);
+        let beyond =
+            |first: u32, size: u32, whole: u32| first.checked_add(size).is_none_or(|end| end > whole);
         let side = |px: u32, most: u32| (1..=most).contains(&px);
         let fits = side(order.width_px, MAX_PANORAMA_PX)
             && side(order.height_px, MAX_PANORAMA_PX)
@@ -167,7 +168,8 @@ impl Renderer {
             && !beyond(window.x_px, window.width_px, order.width_px)
             && !beyond(window.y_px, window.height_px, order.height_px);
         if fits {
-            return self.order(|answer| Work::Frame(Box::new(FrameJob::windowed(order, window, None)), answer));
+            return self
+                .order(|answer| Work::Frame(Box::new(FrameJob::windowed(order, window, None)), answer));
         }
         Box::pin(async move {
             Err(RenderError::Size {

@@ -60,8 +60,8 @@ pub use preset::{Preset, preset, presets};
 pub use probe::{Irradiance, ProbeAnswer, ProbeRequest, SunPlace};
 pub use problem::{Problem, SceneError};
 pub use schema::{
-    frame_request_schema, job_request_schema, metar_answer_schema, metar_request_schema, probe_request_schema, scene_schema,
-    timeline_schema,
+    frame_request_schema, job_request_schema, metar_answer_schema, metar_request_schema,
+    probe_request_schema, scene_schema, timeline_schema,
 };
 pub use stars::{Orientation, Stars};
 pub use sun::{Sun, SunPosition};

@@ -10,7 +10,8 @@ use crate::{
     probe::ProbeRequest,
     problem::{Problem, Problems, SceneError, echo, member},
     schema::{
-        frame_request_schema, job_request_schema, metar_request_schema, probe_request_schema, scene_schema, timeline_schema,
+        frame_request_schema, job_request_schema, metar_request_schema, probe_request_schema, scene_schema,
+        timeline_schema,
     },
     timeline::Timeline,
 };

@@ -8,7 +8,7 @@ use crate::{
     moon::MoonPlace,
     probe::{ProbeAnswer, ProbeRequest, SunPlace},
 };
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use std::{future::Future, pin::Pin, sync::Arc};
 
 /// The answer that a renderer will give. Dropping it cancels the work at the next tile.
@@ -132,7 +132,7 @@ pub struct PassTime {
 }
 
 /// What a frame says of itself.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct FrameFacts {
     /// Where the sun stands at the scene's origin.
     pub sun: SunPlace,

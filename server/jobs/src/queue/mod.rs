@@ -8,6 +8,7 @@ mod tasks;
 
 pub(crate) use records::Record;
 pub use records::State;
+pub(crate) use tasks::Settled;
 pub use tasks::{Counts, Dead};
 
 use crate::JobError;
@@ -112,6 +113,8 @@ impl Queue {
 
 /// Milliseconds since 1970.
 pub(crate) fn now_ms() -> i64 {
-    let since = SystemTime::now().duration_since(SystemTime::UNIX_EPOCH).unwrap_or_default();
+    let since = SystemTime::now()
+        .duration_since(SystemTime::UNIX_EPOCH)
+        .unwrap_or_default();
     i64::try_from(since.as_millis()).unwrap_or(i64::MAX)
 }

@@ -92,14 +92,20 @@ impl Queue {
             return Ok(None);
         }
         let text = "SELECT id FROM welkin_jobs WHERE idempotency_key = $1";
-        let known: String = on!(self, |pool, tasks| sqlx::query_scalar(text).bind(key).fetch_one(pool).await?);
+        let known: String = on!(self, |pool, tasks| sqlx::query_scalar(text)
+            .bind(key)
+            .fetch_one(pool)
+            .await?);
         Ok(Some(known.parse()?))
     }
 
     /// A job's row.
     pub(crate) async fn record(&self, id: JobId) -> Result<Record, JobError> {
         let found = self.records("WHERE id = $1", &id.to_string()).await?;
-        found.into_iter().next().ok_or_else(|| JobError::Unknown(id.to_string()))
+        found
+            .into_iter()
+            .next()
+            .ok_or_else(|| JobError::Unknown(id.to_string()))
     }
 
     /// Jobs before one in the order they were sent, the last first.
@@ -112,7 +118,8 @@ impl Queue {
 
     /// Jobs that have not ended, the first first.
     pub(crate) async fn open_records(&self) -> Result<Vec<Record>, JobError> {
-        self.records("WHERE ended_ms IS NULL AND id > $1 ORDER BY id", "").await
+        self.records("WHERE ended_ms IS NULL AND id > $1 ORDER BY id", "")
+            .await
     }
 
     async fn records(&self, clause: &str, value: &str) -> Result<Vec<Record>, JobError> {
@@ -126,7 +133,10 @@ impl Queue {
                 Ok(Record {
                     document: row.try_get(1)?,
                     frames: u32::try_from(row.try_get::<i64, _>(2)?).map_err(|_| damaged())?,
-                    state: State::ALL.into_iter().find(|s| s.name() == state).ok_or_else(damaged)?,
+                    state: State::ALL
+                        .into_iter()
+                        .find(|s| s.name() == state)
+                        .ok_or_else(damaged)?,
                     created_ms: row.try_get(4)?,
                     ended_ms: row.try_get(5)?,
                     notes: serde_json::from_str(&notes).map_err(|_| damaged())?,
@@ -135,7 +145,10 @@ impl Queue {
             }};
         }
         on!(self, |pool, tasks| {
-            let rows = sqlx::query(sqlx::AssertSqlSafe(text)).bind(value).fetch_all(pool).await?;
+            let rows = sqlx::query(sqlx::AssertSqlSafe(text))
+                .bind(value)
+                .fetch_all(pool)
+                .await?;
             rows.iter().map(|row| record!(row)).collect()
         })
     }
@@ -157,7 +170,8 @@ impl Queue {
 
     /// Marks a job as cancelled, unless it has ended.
     pub(crate) async fn cancel(&self, id: JobId) -> Result<bool, JobError> {
-        let text = "UPDATE welkin_jobs SET state = 'cancelled', ended_ms = $2 WHERE id = $1 AND ended_ms IS NULL";
+        let text =
+            "UPDATE welkin_jobs SET state = 'cancelled', ended_ms = $2 WHERE id = $1 AND ended_ms IS NULL";
         let moved = on!(self, |pool, tasks| {
             let moved = sqlx::query(text).bind(id.to_string()).bind(now_ms());
             moved.execute(pool).await?.rows_affected()
@@ -169,7 +183,10 @@ impl Queue {
     pub(crate) async fn is_cancelled(&self, id: JobId) -> Result<bool, JobError> {
         let text = "SELECT count(*) FROM welkin_jobs WHERE id = $1 AND state = 'cancelled'";
         let count: i64 = on!(self, |pool, tasks| {
-            sqlx::query_scalar(text).bind(id.to_string()).fetch_one(pool).await?
+            sqlx::query_scalar(text)
+                .bind(id.to_string())
+                .fetch_one(pool)
+                .await?
         });
         Ok(count > 0)
     }
@@ -179,7 +196,11 @@ impl Queue {
         let text = "UPDATE welkin_jobs SET notes = $2 WHERE id = $1";
         let notes = serde_json::json!(notes).to_string();
         on!(self, |pool, tasks| {
-            sqlx::query(text).bind(id.to_string()).bind(notes).execute(pool).await?;
+            sqlx::query(text)
+                .bind(id.to_string())
+                .bind(notes)
+                .execute(pool)
+                .await?;
         });
         Ok(())
     }

@@ -1,6 +1,6 @@
 //! The tasks of a job.
 
-use super::{NAME, Queue, on};
+use super::{NAME, Queue, now_ms, on};
 use crate::{
     JobError,
     id::{JobId, Part, Task},
@@ -56,11 +56,21 @@ pub(crate) struct Settled {
 impl Queue {
     /// Puts tasks into the queue, each unless it is there.
     pub(crate) async fn push(&self, id: JobId, parts: &[Part], attempts: u32) -> Result<(), JobError> {
-        let known = self.keys(id).await?;
-        let missing: Vec<_> = parts.iter().copied().filter(|part| !known.contains(&id.key(*part))).collect();
+        let known = match parts {
+            [one] => self.known(&id.key(*one)).await?,
+            _ => self.keys(id).await?,
+        };
+        let missing: Vec<_> = parts
+            .iter()
+            .copied()
+            .filter(|part| !known.contains(&id.key(*part)))
+            .collect();
         let mut names = Generator::new();
         for chunk in missing.chunks(CHUNK) {
-            let tasks = chunk.iter().map(|part| task(id, *part, attempts, &mut names)).collect::<Result<Vec<_>, _>>()?;
+            let tasks = chunk
+                .iter()
+                .map(|part| task(id, *part, attempts, &mut names))
+                .collect::<Result<Vec<_>, _>>()?;
             self.push_chunk(tasks).await?;
         }
         Ok(())
@@ -71,15 +81,24 @@ impl Queue {
         match self {
             Self::Sqlite(pool) => {
                 let bytes = |task: Queued<Task>| task.try_map_args(|args| serde_json::to_vec(&args));
-                let tasks: Vec<_> = tasks.into_iter().map(bytes).collect::<Result<_, _>>().map_err(|e| failed(&e))?;
+                let tasks: Vec<_> = tasks
+                    .into_iter()
+                    .map(bytes)
+                    .collect::<Result<_, _>>()
+                    .map_err(|e| failed(&e))?;
                 let mut transaction = pool.begin().await?;
-                apalis_sqlite::queries::push_tasks(&mut *transaction, NAME, &tasks).await.map_err(|e| failed(&e))?;
+                apalis_sqlite::queries::push_tasks(&mut *transaction, NAME, &tasks)
+                    .await
+                    .map_err(|e| failed(&e))?;
                 transaction.commit().await?;
             }
             Self::Postgres(pool) => {
                 let config = apalis_postgres::Config::default().queue(NAME);
                 let mut storage = PostgresStorage::<Task>::new(pool).with_config(config);
-                storage.push_all(stream::iter(tasks)).await.map_err(|e| failed(&e))?;
+                storage
+                    .push_all(stream::iter(tasks))
+                    .await
+                    .map_err(|e| failed(&e))?;
             }
         }
         Ok(())
@@ -89,7 +108,19 @@ impl Queue {
     async fn keys(&self, id: JobId) -> Result<HashSet<String>, JobError> {
         on!(self, |pool, tasks| {
             let text = format!("SELECT idempotency_key FROM {tasks} WHERE {}", of_job(self));
-            let keys = sqlx::query_scalar(sqlx::AssertSqlSafe(text)).bind(NAME).bind(prefix(self, id));
+            let keys = sqlx::query_scalar(sqlx::AssertSqlSafe(text))
+                .bind(NAME)
+                .bind(prefix(self, id));
+            Ok(keys.fetch_all(pool).await?.into_iter().collect())
+        })
+    }
+
+    /// A key, if a task has it.
+    async fn known(&self, key: &str) -> Result<HashSet<String>, JobError> {
+        on!(self, |pool, tasks| {
+            let text =
+                format!("SELECT idempotency_key FROM {tasks} WHERE job_type = $1 AND idempotency_key = $2");
+            let keys = sqlx::query_scalar(sqlx::AssertSqlSafe(text)).bind(NAME).bind(key);
             Ok(keys.fetch_all(pool).await?.into_iter().collect())
         })
     }
@@ -104,8 +135,19 @@ impl Queue {
                 is_cancelled(self),
                 of_job(self),
             );
-            let rows = sqlx::query(sqlx::AssertSqlSafe(text)).bind(NAME).bind(prefix(self, id)).fetch_all(pool).await?;
-            let read = |row| Ok::<_, sqlx::Error>((Row::try_get(row, 0)?, Row::try_get(row, 1)?, Row::try_get(row, 2)?, Row::try_get(row, 3)?));
+            let rows = sqlx::query(sqlx::AssertSqlSafe(text))
+                .bind(NAME)
+                .bind(prefix(self, id))
+                .fetch_all(pool)
+                .await?;
+            let read = |row| {
+                Ok::<_, sqlx::Error>((
+                    Row::try_get(row, 0)?,
+                    Row::try_get(row, 1)?,
+                    Row::try_get(row, 2)?,
+                    Row::try_get(row, 3)?,
+                ))
+            };
             rows.iter().map(read).collect::<Result<_, _>>()?
         });
         let mut counts = Counts::default();
@@ -130,8 +172,14 @@ impl Queue {
                 Self::Sqlite(_) => "CAST(done_at AS INTEGER) >= $3",
                 Self::Postgres(_) => "done_at >= to_timestamp($3)",
             };
-            let text = format!("SELECT count(*) FROM {tasks} WHERE {} AND status = 'Done' AND {done_at}", of_job(self));
-            let count = sqlx::query_scalar(sqlx::AssertSqlSafe(text)).bind(NAME).bind(prefix(self, id)).bind(since_s);
+            let text = format!(
+                "SELECT count(*) FROM {tasks} WHERE {} AND status = 'Done' AND {done_at}",
+                of_job(self)
+            );
+            let count = sqlx::query_scalar(sqlx::AssertSqlSafe(text))
+                .bind(NAME)
+                .bind(prefix(self, id))
+                .bind(since_s);
             count.fetch_one(pool).await?
         });
         Ok(u32::try_from(count).unwrap_or(u32::MAX))
@@ -146,8 +194,18 @@ impl Queue {
                 of_job(self),
                 is_cancelled(self),
             );
-            let rows = sqlx::query(sqlx::AssertSqlSafe(text)).bind(NAME).bind(prefix(self, id)).fetch_all(pool).await?;
-            let read = |row| Ok::<_, sqlx::Error>((Row::try_get(row, 0)?, Row::try_get(row, 1)?, Row::try_get(row, 2)?));
+            let rows = sqlx::query(sqlx::AssertSqlSafe(text))
+                .bind(NAME)
+                .bind(prefix(self, id))
+                .fetch_all(pool)
+                .await?;
+            let read = |row| {
+                Ok::<_, sqlx::Error>((
+                    Row::try_get(row, 0)?,
+                    Row::try_get(row, 1)?,
+                    Row::try_get(row, 2)?,
+                ))
+            };
             rows.iter().map(read).collect::<Result<_, _>>()?
         });
         let dead = |(key, attempts, result): (String, i64, Option<String>)| Dead {
@@ -169,12 +227,18 @@ impl Queue {
                  ORDER BY idempotency_key",
                 of_job(self),
             );
-            let rows = sqlx::query(sqlx::AssertSqlSafe(text)).bind(NAME).bind(prefix(self, id)).fetch_all(pool).await?;
+            let rows = sqlx::query(sqlx::AssertSqlSafe(text))
+                .bind(NAME)
+                .bind(prefix(self, id))
+                .fetch_all(pool)
+                .await?;
             let read = |row| Ok::<_, sqlx::Error>((Row::try_get(row, 0)?, Row::try_get(row, 1)?));
             rows.iter().map(read).collect::<Result<_, _>>()?
         });
         let settled = |(key, result): (String, Option<String>)| {
-            let Some(Part::Frame(frame)) = Part::of_key(&key) else { return None };
+            let Some(Part::Frame(frame)) = Part::of_key(&key) else {
+                return None;
+            };
             let result: Value = serde_json::from_str(result.as_deref()?).ok()?;
             let told = result.get("Ok").cloned().unwrap_or_default();
             Some(Settled { frame, told })
@@ -189,7 +253,11 @@ impl Queue {
                 "SELECT count(*) FROM (SELECT 1 FROM {tasks} WHERE {} AND status NOT IN ('Done', 'Killed') LIMIT 1) AS one",
                 of_job(self)
             );
-            sqlx::query_scalar(sqlx::AssertSqlSafe(text)).bind(NAME).bind(prefix(self, id)).fetch_one(pool).await?
+            sqlx::query_scalar(sqlx::AssertSqlSafe(text))
+                .bind(NAME)
+                .bind(prefix(self, id))
+                .fetch_one(pool)
+                .await?
         });
         Ok(count > 0)
     }
@@ -206,7 +274,12 @@ impl Queue {
                  WHERE {} AND status IN ('Pending', 'Failed')",
                 of_job(self)
             );
-            sqlx::query(sqlx::AssertSqlSafe(text)).bind(NAME).bind(prefix(self, id)).bind(CANCELLED_RESULT).execute(pool).await?;
+            sqlx::query(sqlx::AssertSqlSafe(text))
+                .bind(NAME)
+                .bind(prefix(self, id))
+                .bind(CANCELLED_RESULT)
+                .execute(pool)
+                .await?;
         });
         Ok(())
     }
@@ -217,13 +290,17 @@ impl Queue {
             let text = format!(
                 "SELECT status, count(*) FROM {tasks} WHERE job_type = $1 AND status NOT IN ('Done', 'Killed') GROUP BY 1"
             );
-            let rows = sqlx::query(sqlx::AssertSqlSafe(text)).bind(NAME).fetch_all(pool).await?;
+            let rows = sqlx::query(sqlx::AssertSqlSafe(text))
+                .bind(NAME)
+                .fetch_all(pool)
+                .await?;
             let read = |row| Ok::<_, sqlx::Error>((Row::try_get(row, 0)?, Row::try_get(row, 1)?));
             rows.iter().map(read).collect::<Result<_, _>>()?
         });
         let of = |running: bool| {
             let rows = rows.iter().filter(|(status, _)| (status == "Running") == running);
-            rows.map(|(_, count)| u64::try_from(*count).unwrap_or_default()).sum()
+            rows.map(|(_, count)| u64::try_from(*count).unwrap_or_default())
+                .sum()
         };
         Ok((of(false), of(true)))
     }
@@ -234,14 +311,22 @@ impl Queue {
             Self::Sqlite(pool) => {
                 let text = "SELECT count(*) FROM Workers WHERE worker_type = $1 \
                             AND CAST(last_seen AS INTEGER) >= CAST(strftime('%s', 'now') AS INTEGER) - $2";
-                sqlx::query_scalar(text).bind(NAME).bind(within_s).fetch_one(pool).await?
+                sqlx::query_scalar(text)
+                    .bind(NAME)
+                    .bind(within_s)
+                    .fetch_one(pool)
+                    .await?
             }
             Self::Postgres(pool) => {
                 let text = "SELECT count(*) FROM apalis.workers WHERE worker_type = $1 \
                             AND last_seen >= now() - make_interval(secs => $2)";
                 #[allow(clippy::cast_precision_loss, reason = "seconds of a heartbeat")]
                 let within_s = within_s as f64;
-                sqlx::query_scalar(text).bind(NAME).bind(within_s).fetch_one(pool).await?
+                sqlx::query_scalar(text)
+                    .bind(NAME)
+                    .bind(within_s)
+                    .fetch_one(pool)
+                    .await?
             }
         };
         Ok(u64::try_from(count).unwrap_or_default())
@@ -251,11 +336,15 @@ impl Queue {
 fn task(id: JobId, part: Part, attempts: u32, names: &mut Generator) -> Result<Queued<Task>, JobError> {
     // In order, as tasks of one second are taken in the order of their names.
     let name = names.generate().map_err(|e| JobError::Queue(e.to_string()))?;
-    let task = TaskBuilder::new(Task { job: id.to_string(), part })
-        .task_id(TaskId::from_string(name.to_string()))
-        .idempotency_key(id.key(part))
-        .max_attempts(attempts as usize)
-        .priority(usize::from(part == Part::Gather));
+    let task = TaskBuilder::new(Task {
+        job: id.to_string(),
+        part,
+        queued_ms: now_ms(),
+    })
+    .task_id(TaskId::from_string(name.to_string()))
+    .idempotency_key(id.key(part))
+    .max_attempts(attempts as usize)
+    .priority(usize::from(part == Part::Gather));
     Ok(task.build())
 }
 

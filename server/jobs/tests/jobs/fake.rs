@@ -11,8 +11,8 @@ use welkin_scene::{
     Irradiance, ProbeAnswer,
     job::Window,
     renderer::{
-        DeviceInfo, Frame, FrameFacts, FrameOrder, OnPass, Output, PassTime, Pixels, ProbeOrder, Render, RenderError,
-        Reply,
+        DeviceInfo, Frame, FrameFacts, FrameOrder, OnPass, Output, PassTime, Pixels, ProbeOrder, Render,
+        RenderError, Reply,
     },
 };
 
@@ -71,7 +71,10 @@ fn draw(order: &FrameOrder, window: Window) -> Frame {
             Output::Display => Pixels::Display(values.map(|v| (v * 10.0) as u64 as u8).collect()),
             Output::Linear => Pixels::Linear(values.map(|v| v as f32).collect()),
         },
-        passes: vec![PassTime { pass: "fake", ms: 1.0 }],
+        passes: vec![PassTime {
+            pass: "fake",
+            ms: 1.0,
+        }],
         facts: FrameFacts {
             sun: order.scene.sun_place(),
             sun_irradiance_w_m2: [1.0; 3],

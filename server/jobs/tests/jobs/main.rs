@@ -9,4 +9,8 @@
 
 mod batch;
 mod fake;
+mod faults;
+mod full;
 mod place;
+mod servers;
+mod whole;

@@ -15,6 +15,7 @@ use welkin_scene::renderer::Render;
 
 pub(crate) struct Place {
     pub(crate) jobs: Jobs,
+    queue: Queue,
     folder: TempDir,
 }
 
@@ -24,9 +25,19 @@ impl Place {
         let folder = TempDir::new().unwrap();
         let queue = format!("sqlite:{}", folder.path().join("queue.db").display());
         let store = Store::folder(&folder.path().join("results")).unwrap();
+        let queue = Queue::open(&queue).await.unwrap();
         Self {
-            jobs: Jobs::new(Queue::open(&queue).await.unwrap(), store, None),
+            jobs: Jobs::new(queue.clone(), store, None),
+            queue,
             folder,
+        }
+    }
+
+    /// The same place with another store.
+    pub(crate) fn with_store(self, store: Store) -> Self {
+        Self {
+            jobs: Jobs::new(self.queue.clone(), store, None),
+            ..self
         }
     }
 
@@ -59,7 +70,11 @@ impl Place {
     /// A file among a job's results.
     pub(crate) async fn file(&self, id: JobId, name: &str) -> Vec<u8> {
         let (_, bytes) = self.jobs.result(id, name).await.unwrap();
-        let parts: Vec<_> = bytes.map(|part| part.map(|b| b.to_vec())).try_collect().await.unwrap();
+        let parts: Vec<_> = bytes
+            .map(|part| part.map(|b| b.to_vec()))
+            .try_collect()
+            .await
+            .unwrap();
         parts.concat()
     }
 
@@ -107,6 +122,10 @@ pub(crate) fn list(count: u32) -> Value {
 
 pub(crate) fn assert_done(status: &JobStatus, frames: u32) {
     assert_eq!(status.state, State::Done, "{status:#?}");
-    assert_eq!((status.frames, status.counts.done), (frames, frames), "{status:#?}");
+    assert_eq!(
+        (status.frames, status.counts.done),
+        (frames, frames),
+        "{status:#?}"
+    );
     assert!(status.failures.is_empty(), "{status:#?}");
 }

@@ -25,10 +25,20 @@ impl Check for JobRequest {
         let frames = format!("{at}/frames");
         match &self.frames {
             Frames::List(_) => {}
-            Frames::Grid(grid) => fields(grid.axes.iter().map(Axis::field), &grid.scene, &format!("{frames}/axes"), problems),
+            Frames::Grid(grid) => fields(
+                grid.axes.iter().map(Axis::field),
+                &grid.scene,
+                &format!("{frames}/axes"),
+                problems,
+            ),
             Frames::Random(random) => {
                 let ranges = format!("{frames}/ranges");
-                fields(random.ranges.iter().map(Spread::field), &random.scene, &ranges, problems);
+                fields(
+                    random.ranges.iter().map(Spread::field),
+                    &random.scene,
+                    &ranges,
+                    problems,
+                );
                 for (i, spread) in random.ranges.iter().enumerate() {
                     order(spread, &format!("{ranges}/{i}"), problems);
                 }
@@ -58,7 +68,8 @@ impl JobRequest {
         }
         for (field, side) in [("width_px", self.width_px), ("height_px", self.height_px)] {
             if side > MAX_SIDE_PX {
-                let allowed = format!("a whole number from 1 to {MAX_SIDE_PX} pixels where frames are no panorama");
+                let allowed =
+                    format!("a whole number from 1 to {MAX_SIDE_PX} pixels where frames are no panorama");
                 problems.push(Problem::new(format!("{at}/{field}"), &json!(side), allowed));
             }
         }
@@ -74,14 +85,22 @@ impl JobRequest {
         for (i, film) in lapse.films.iter().enumerate() {
             let place = || format!("{at}/films/{i}");
             if !seen.insert(film) {
-                problems.push(Problem::new(place(), &json!(film), "another film than those before it".into()));
+                problems.push(Problem::new(
+                    place(),
+                    &json!(film),
+                    "another film than those before it".into(),
+                ));
             }
             if self.format().is_linear() {
                 let allowed = "left out where `format` holds radiance: films show pictures".into();
                 problems.push(Problem::new(place(), &json!(film), allowed));
             }
             if *film == Film::Gif && self.width_px.max(self.height_px) > u32::from(u16::MAX) {
-                problems.push(Problem::new(place(), &json!(film), "left out for frames this large".into()));
+                problems.push(Problem::new(
+                    place(),
+                    &json!(film),
+                    "left out for frames this large".into(),
+                ));
             }
         }
     }
@@ -93,7 +112,11 @@ impl JobRequest {
         }
         if panorama.tile_px % 16 != 0 {
             let allowed = "a whole number from 16 to 4096 pixels, a multiple of 16".into();
-            problems.push(Problem::new(format!("{at}/frames/tile_px"), &json!(panorama.tile_px), allowed));
+            problems.push(Problem::new(
+                format!("{at}/frames/tile_px"),
+                &json!(panorama.tile_px),
+                allowed,
+            ));
         }
     }
 
@@ -122,15 +145,20 @@ impl JobRequest {
                 scope.spawn(move || check(begin..(begin + share).min(count)));
             }
         });
-        let found = first.into_inner().unwrap_or_else(std::sync::PoisonError::into_inner);
+        let found = first
+            .into_inner()
+            .unwrap_or_else(std::sync::PoisonError::into_inner);
         found.map_or(Ok(()), |(_, error)| Err(error))
     }
 
     fn one_frame(&self, plan: &JobPlan, number: u32) -> Result<(), SceneError> {
         let frame = plan.frame(number).map_err(|e| self.of_frame(e, plan, number))?;
-        let JobRequest { width_px, height_px, .. } = *self;
+        let JobRequest {
+            width_px, height_px, ..
+        } = *self;
         if matches!(frame.scene.camera.projection, Projection::Cubemap {}) && width_px != 6 * height_px {
-            let allowed = format!("6 times `height_px` ({height_px}) where frames are cubemaps, as frame {number} is");
+            let allowed =
+                format!("6 times `height_px` ({height_px}) where frames are cubemaps, as frame {number} is");
             let problem = Problem::new("/width_px".into(), &json!(width_px), allowed);
             return Err(SceneError::Invalid(vec![problem]));
         }
@@ -151,7 +179,12 @@ impl JobRequest {
             return error;
         };
         let told = |problem: Problem| Problem {
-            message: format!("in frame {number} of {}, {}{}", plan.count(), problem.pointer, colon(&problem)),
+            message: format!(
+                "in frame {number} of {}, {}{}",
+                plan.count(),
+                problem.pointer,
+                colon(&problem)
+            ),
             pointer: at.into(),
             ..problem
         };
@@ -173,12 +206,25 @@ fn fields<'a>(varied: impl Iterator<Item = &'a str>, scene: &Value, at: &str, pr
     let mut before: Vec<&str> = Vec::new();
     for (i, field) in varied.enumerate() {
         let place = format!("{at}/{i}/field");
-        let inside = |outer: &str, inner: &str| inner.strip_prefix(outer).is_some_and(|rest| rest.is_empty() || rest.starts_with('/'));
+        let inside = |outer: &str, inner: &str| {
+            inner
+                .strip_prefix(outer)
+                .is_some_and(|rest| rest.is_empty() || rest.starts_with('/'))
+        };
         if field.is_empty() || document.pointer(field).is_none() {
-            let allowed = "a JSON pointer to a field that the job's scene has, such as /sun/position/elevation_deg".into();
+            let allowed =
+                "a JSON pointer to a field that the job's scene has, such as /sun/position/elevation_deg"
+                    .into();
             problems.push(Problem::new(place, &json!(field), allowed));
-        } else if before.iter().any(|other| inside(other, field) || inside(field, other)) {
-            problems.push(Problem::new(place, &json!(field), "another field than those before it".into()));
+        } else if before
+            .iter()
+            .any(|other| inside(other, field) || inside(field, other))
+        {
+            problems.push(Problem::new(
+                place,
+                &json!(field),
+                "another field than those before it".into(),
+            ));
         }
         before.push(field);
     }
@@ -186,9 +232,17 @@ fn fields<'a>(varied: impl Iterator<Item = &'a str>, scene: &Value, at: &str, pr
 
 fn order(spread: &Spread, at: &str, problems: &mut Problems) {
     let Spread::Range(range) = spread else { return };
-    let (least, most) = if range.whole { (range.from.ceil(), range.to.floor()) } else { (range.from, range.to) };
+    let (least, most) = if range.whole {
+        (range.from.ceil(), range.to.floor())
+    } else {
+        (range.from, range.to)
+    };
     if most < least {
-        let words = if range.whole { "a number with a whole one between `from` and it" } else { "a number of `from` or more" };
+        let words = if range.whole {
+            "a number with a whole one between `from` and it"
+        } else {
+            "a number of `from` or more"
+        };
         problems.push(Problem::new(format!("{at}/to"), &json!(range.to), words.into()));
     }
 }

@@ -79,7 +79,11 @@ impl JobPlan {
             problem.message = format!("the job has {count} frames; it may have {MAX_FRAMES} at most");
             SceneError::Invalid(vec![problem])
         })?;
-        Ok(Self { request, source, count })
+        Ok(Self {
+            request,
+            source,
+            count,
+        })
     }
 
     /// The request.
@@ -141,7 +145,9 @@ impl JobPlan {
         let Frames::Panorama(Panorama { tile_px, .. }) = self.request.frames else {
             return None;
         };
-        let JobRequest { width_px, height_px, .. } = self.request;
+        let JobRequest {
+            width_px, height_px, ..
+        } = self.request;
         Some((width_px.div_ceil(tile_px), height_px.div_ceil(tile_px)))
     }
 
@@ -184,7 +190,12 @@ impl JobPlan {
                 values.into_iter().collect()
             }
             Frames::Random(random) => (random.ranges.iter().enumerate())
-                .map(|(i, range)| (range.field().to_owned(), range.value(bits(random.seed, number, i))))
+                .map(|(i, range)| {
+                    (
+                        range.field().to_owned(),
+                        range.value(bits(random.seed, number, i)),
+                    )
+                })
                 .collect(),
             _ => Map::new(),
         }
@@ -195,7 +206,10 @@ impl JobPlan {
 pub(super) fn frames_of(request: &JobRequest) -> u64 {
     match &request.frames {
         Frames::List(list) => list.scenes.len() as u64,
-        Frames::Grid(grid) => grid.axes.iter().fold(1, |all, axis| all.saturating_mul(axis.count())),
+        Frames::Grid(grid) => grid
+            .axes
+            .iter()
+            .fold(1, |all, axis| all.saturating_mul(axis.count())),
         Frames::Random(random) => random.count.into(),
         Frames::Timeline(lapse) => lapse.count.into(),
         Frames::Panorama(Panorama { tile_px, .. }) => {

@@ -110,7 +110,12 @@ impl Spread {
     /// The value that 64 random bits choose.
     pub(super) fn value(&self, bits: u64) -> Value {
         match self {
-            Self::Range(Range { from, to, whole: true, .. }) => {
+            Self::Range(Range {
+                from,
+                to,
+                whole: true,
+                ..
+            }) => {
                 let (least, most) = (from.ceil(), to.floor());
                 // 53 bits over the count of numbers: no multiple of it is off by more than one in 2^53.
                 json!((least + (unit(bits) * (most - least + 1.0)).floor()).min(most))
@@ -155,7 +160,11 @@ pub(super) fn bits(seed: u32, frame: u32, field: usize) -> u64 {
 
 #[cfg(test)]
 mod tests {
-    #![allow(clippy::unwrap_used, clippy::cast_precision_loss, reason = "tests fail by panicking")]
+    #![allow(
+        clippy::unwrap_used,
+        clippy::cast_precision_loss,
+        reason = "tests fail by panicking"
+    )]
 
     use super::*;
 
@@ -167,7 +176,10 @@ mod tests {
             let values: Vec<f64> = (0..count).map(|frame| unit(bits(7, frame, field))).collect();
             let mean = values.iter().sum::<f64>() / f64::from(count);
             // The mean of n even values has a deviation of 1/sqrt(12 n); five of them are never seen.
-            assert!((mean - 0.5).abs() < 5.0 / (12.0 * f64::from(count)).sqrt(), "{mean}");
+            assert!(
+                (mean - 0.5).abs() < 5.0 / (12.0 * f64::from(count)).sqrt(),
+                "{mean}"
+            );
             let beside: f64 = values.windows(2).map(|w| (w[0] - 0.5) * (w[1] - 0.5)).sum();
             // Products of two independent even values: 1/12 deviation each.
             assert!(beside.abs() < 5.0 / 12.0 * f64::from(count).sqrt(), "{beside}");
@@ -176,12 +188,21 @@ mod tests {
 
     #[test]
     fn whole_numbers_reach_both_ends() {
-        let range = Spread::Range(Range { field: String::new(), from: 1.0, to: 6.0, whole: true });
+        let range = Spread::Range(Range {
+            field: String::new(),
+            from: 1.0,
+            to: 6.0,
+            whole: true,
+        });
         let mut seen = [0_u32; 6];
         for frame in 0..6000 {
             let value = range.value(bits(1, frame, 0)).as_f64().unwrap();
             assert!(value.fract() == 0.0 && (1.0..=6.0).contains(&value));
-            #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "one to six")]
+            #[allow(
+                clippy::cast_possible_truncation,
+                clippy::cast_sign_loss,
+                reason = "one to six"
+            )]
             let at = value as usize - 1;
             seen[at] += 1;
         }
@@ -193,7 +214,12 @@ mod tests {
 
     #[test]
     fn steps_reach_both_ends_exactly() {
-        let axis = Axis::Steps(Steps { field: String::new(), from: 0.1, to: 0.7, steps: 4 });
+        let axis = Axis::Steps(Steps {
+            field: String::new(),
+            from: 0.1,
+            to: 0.7,
+            steps: 4,
+        });
         assert_eq!(axis.value(0), json!(0.1));
         assert_eq!(axis.value(3), json!(0.7));
     }
