@@ -106,7 +106,7 @@ async fn labels_tell_what_was_drawn_and_probed() {
     let document = json!({"frames": {"kind": "random", "count": 20, "seed": 3, "ranges": [
             {"field": "/sun/position/elevation_deg", "from": -5, "to": 60},
             {"field": "/clouds/seed", "from": 0, "to": 9, "whole": true},
-            {"field": "/display/tone_curve", "values": ["agx", "linear"]}]},
+            {"field": "/display/tone_curve", "values": ["agx", "aces"]}]},
         "probe": [{"azimuth_deg": 0, "elevation_deg": 90}], "width_px": 8, "height_px": 4});
     let id = place.send(&document).await;
     assert_done(&place.ended(id).await, 20);
