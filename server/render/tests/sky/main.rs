@@ -24,3 +24,4 @@ mod projections;
 mod queue;
 mod scenes;
 mod sums;
+mod windows;
