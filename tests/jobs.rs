@@ -32,7 +32,11 @@ impl Drop for Running {
 
 impl Place {
     fn new() -> Self {
-        let port = TcpListener::bind("127.0.0.1:0").unwrap().local_addr().unwrap().port();
+        let port = TcpListener::bind("127.0.0.1:0")
+            .unwrap()
+            .local_addr()
+            .unwrap()
+            .port();
         Self {
             folder: TempDir::new().unwrap(),
             address: format!("127.0.0.1:{port}"),
@@ -130,12 +134,22 @@ fn a_batch_survives_its_server_and_is_what_frames_are() {
     let _server = place.serve(&[]);
     let again = place.submit(&small(60), &["--key", "mine", "--wait"]);
     assert!(again.status.success(), "{}", text(&again.stderr));
-    assert!(text(&again.stdout).starts_with(&id), "the key stands for the first job");
+    assert!(
+        text(&again.stdout).starts_with(&id),
+        "the key stands for the first job"
+    );
     let job = place.job(&id);
-    assert_eq!((&job["state"], &job["counts"]["done"]), (&json!("done"), &json!(60)), "{job:#}");
+    assert_eq!(
+        (&job["state"], &job["counts"]["done"]),
+        (&json!("done"), &json!(60)),
+        "{job:#}"
+    );
 
     let folder = place.path("fetched");
-    let fetched = place.welkin(&["jobs", &id, "--output", &folder]).output().unwrap();
+    let fetched = place
+        .welkin(&["jobs", &id, "--output", &folder])
+        .output()
+        .unwrap();
     assert!(fetched.status.success(), "{}", text(&fetched.stderr));
     let labels = fs::read_to_string(Path::new(&folder).join("labels.jsonl")).unwrap();
     assert_eq!(labels.lines().count(), 60);
@@ -143,7 +157,10 @@ fn a_batch_survives_its_server_and_is_what_frames_are() {
         let label: Value = serde_json::from_str(line).unwrap();
         let name = format!("{:06}.png", label["frame"].as_u64().unwrap());
         let frame = fs::read(Path::new(&folder).join(&name)).unwrap();
-        assert!(frame == alone(&place, &label["scene"]), "{name} is not what the frame is alone");
+        assert!(
+            frame == alone(&place, &label["scene"]),
+            "{name} is not what the frame is alone"
+        );
     }
 }
 
@@ -154,16 +171,35 @@ fn workers_take_what_the_server_leaves_to_them() {
     let sent = place.submit(&small(12), &[]);
     let id = text(&sent.stdout);
     assert_eq!(place.job(&id)["counts"]["waiting"], 12);
-    let address = format!("127.0.0.1:{}", TcpListener::bind("127.0.0.1:0").unwrap().local_addr().unwrap().port());
+    let address = format!(
+        "127.0.0.1:{}",
+        TcpListener::bind("127.0.0.1:0")
+            .unwrap()
+            .local_addr()
+            .unwrap()
+            .port()
+    );
     let workers: Vec<_> = [vec!["worker", "--metrics", &address], vec!["worker"]]
         .iter()
         .map(|arguments| Running(place.welkin(arguments).stderr(Stdio::null()).spawn().unwrap()))
         .collect();
     let job = place.until(&id, |job| !job["ended_at"].is_null());
-    assert_eq!((&job["state"], &job["counts"]["done"]), (&json!("done"), &json!(12)), "{job:#}");
-    let numbers = Command::new("curl").args(["--silent", &format!("http://{address}/metrics")]).output().unwrap();
+    assert_eq!(
+        (&job["state"], &job["counts"]["done"]),
+        (&json!("done"), &json!(12)),
+        "{job:#}"
+    );
+    let numbers = Command::new("curl")
+        .args(["--silent", &format!("http://{address}/metrics")])
+        .output()
+        .unwrap();
     let numbers = text(&numbers.stdout);
-    for name in ["welkin_job_frames_total", "welkin_job_wait_seconds", "welkin_job_stage_seconds", "welkin_render_pass_seconds"] {
+    for name in [
+        "welkin_job_frames_total",
+        "welkin_job_wait_seconds",
+        "welkin_job_stage_seconds",
+        "welkin_render_pass_seconds",
+    ] {
         assert!(numbers.contains(name), "{name}: {numbers}");
     }
     drop(workers);
@@ -174,8 +210,16 @@ fn what_the_server_would_refuse_is_told_with_its_place() {
     let place = Place::new();
     let wrong = place.submit(&json!({"frames": {"kind": "list", "scenes": [{"sun": 1}]}}), &[]);
     assert_eq!(wrong.status.code(), Some(2));
-    assert!(text(&wrong.stderr).contains("/frames/scenes/0/sun"), "{}", text(&wrong.stderr));
+    assert!(
+        text(&wrong.stderr).contains("/frames/scenes/0/sun"),
+        "{}",
+        text(&wrong.stderr)
+    );
     let nobody = place.submit(&small(1), &[]);
     assert_eq!(nobody.status.code(), Some(1));
-    assert!(text(&nobody.stderr).contains(&place.address), "{}", text(&nobody.stderr));
+    assert!(
+        text(&nobody.stderr).contains(&place.address),
+        "{}",
+        text(&nobody.stderr)
+    );
 }

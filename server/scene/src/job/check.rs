@@ -110,7 +110,7 @@ impl JobRequest {
             let allowed = "`exr` or `exr-float` for a panorama, which becomes one OpenEXR file".into();
             problems.push(Problem::new(format!("{at}/format"), &json!(self.format), allowed));
         }
-        if panorama.tile_px % 16 != 0 {
+        if !panorama.tile_px.is_multiple_of(16) {
             let allowed = "a whole number from 16 to 4096 pixels, a multiple of 16".into();
             problems.push(Problem::new(
                 format!("{at}/frames/tile_px"),

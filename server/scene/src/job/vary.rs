@@ -125,7 +125,7 @@ impl Spread {
                 json!((from * (1.0 - share) + to * share).clamp(from.min(*to), to.max(*from)))
             }
             Self::Values(Values { values, .. }) => {
-                let one = u128::from(bits) * values.len() as u128 >> 64;
+                let one = (u128::from(bits) * values.len() as u128) >> 64;
                 pick(values, u64::try_from(one).unwrap_or_default())
             }
         }
