@@ -1,7 +1,8 @@
 // Which clouds are seen in the directions of some blocks of the dome.
 import package::lib::cloud_march::march_clouds;
-import package::lib::cloud_ray::cloud_ray;
-import package::lib::dome::{BLOCK_CORNERS, BLOCK_CELLS, BLOCK_SIDE, Dome, dome_direction};
+import package::lib::cloud_ray::{air, cloud_ray, view};
+import package::lib::dome::{BLOCK_CORNERS, BLOCK_CELLS, BLOCK_SIDE, Dome, dome_sight};
+import package::lib::geometry::edge_cosine;
 import package::lib::view_ray::Observer;
 
 @group(0) @binding(10) var<uniform> dome: Dome;
@@ -26,7 +27,7 @@ fn cloud_dome(@builtin(global_invocation_id) id: vec3u) {
     }
     let block = blocks[id.y];
     let corner = block.xy * BLOCK_CELLS + vec2u(id.x % BLOCK_SIDE, id.x / BLOCK_SIDE);
-    let direction = dome_direction(vec2f(corner) / f32(dome.cells));
+    let direction = dome_sight(dome, corner, view.up, edge_cosine(air.radius_m, view.altitude_m));
     let seen = march_clouds(cloud_ray(observer, direction, jitter_of(vec2f(corner)), CELL / f32(dome.cells)));
     let at = 6u * (block.z * BLOCK_CORNERS + id.x);
     nodes[at] = seen.first.distance_m;

@@ -1,8 +1,9 @@
 // The light of the clouds that are seen in the directions of some blocks of the dome.
 import package::lib::cloud_nodes::{FourNodes, Nodes};
-import package::lib::cloud_ray::cloud_ray;
+import package::lib::cloud_ray::{air, cloud_ray, view};
 import package::lib::cloud_seen::clouds_seen;
-import package::lib::dome::{BLOCK_CORNERS, BLOCK_CELLS, BLOCK_SIDE, Dome, dome_direction};
+import package::lib::dome::{BLOCK_CORNERS, BLOCK_CELLS, BLOCK_SIDE, Dome, dome_sight, dome_texel};
+import package::lib::geometry::edge_cosine;
 import package::lib::view_ray::Observer;
 
 @group(0) @binding(18) var<uniform> dome: Dome;
@@ -12,7 +13,7 @@ import package::lib::view_ray::Observer;
 // Six vectors a corner, as `Nodes` has them.
 @group(0) @binding(21) var<storage, read> nodes: array<vec4f>;
 // Radiance to add in R, G, B; alpha is the share of what lies behind that comes through.
-@group(0) @binding(22) var<storage, read_write> seen: array<vec4f>;
+@group(0) @binding(22) var seen: texture_storage_2d<rgba32float, write>;
 
 @compute @workgroup_size(64)
 fn cloud_dome_light(@builtin(global_invocation_id) id: vec3u) {
@@ -20,10 +21,12 @@ fn cloud_dome_light(@builtin(global_invocation_id) id: vec3u) {
         return;
     }
     let block = blocks[id.y];
-    let corner = block.xy * BLOCK_CELLS + vec2u(id.x % BLOCK_SIDE, id.x / BLOCK_SIDE);
-    let ray = cloud_ray(observer, dome_direction(vec2f(corner) / f32(dome.cells)), 0.5, 0.0);
-    let at = block.z * BLOCK_CORNERS + id.x;
-    let k = 6u * at;
+    let in_block = vec2u(id.x % BLOCK_SIDE, id.x / BLOCK_SIDE);
+    let corner = block.xy * BLOCK_CELLS + in_block;
+    let direction = dome_sight(dome, corner, view.up, edge_cosine(air.radius_m, view.altitude_m));
+    let ray = cloud_ray(observer, direction, 0.5, 0.0);
+    let k = 6u * (block.z * BLOCK_CORNERS + id.x);
     let first = FourNodes(nodes[k], nodes[k + 1u], nodes[k + 2u]);
-    seen[at] = clouds_seen(ray, Nodes(first, FourNodes(nodes[k + 3u], nodes[k + 4u], nodes[k + 5u])));
+    let light = clouds_seen(ray, Nodes(first, FourNodes(nodes[k + 3u], nodes[k + 4u], nodes[k + 5u])));
+    textureStore(seen, dome_texel(block.z, in_block), light);
 }

@@ -4,10 +4,15 @@ import package::lib::cloud_ray::cloud_ray;
 import package::lib::cloud_seen::clouds_seen;
 import package::lib::view_ray::Observer;
 
+// True where more than the sphere stands on the ground.
+override GROUND: bool = false;
+
 @group(0) @binding(18) var<storage, read> directions: array<vec4f>;
 @group(0) @binding(19) var<uniform> observer: Observer;
 // Radiance to add in R, G, B; alpha is the share of what lies behind that comes through.
 @group(0) @binding(20) var<storage, read_write> answers: array<vec4f>;
+// In alpha, how far away that is; else -1.
+@group(0) @binding(21) var<storage, read> lit_ground: array<vec4f>;
 
 @compute @workgroup_size(64)
 fn cloud_probe(@builtin(global_invocation_id) id: vec3u) {
@@ -15,6 +20,10 @@ fn cloud_probe(@builtin(global_invocation_id) id: vec3u) {
         return;
     }
     // The middle of each step: an answer stands alone, no neighbour averages it.
-    let ray = cloud_ray(observer, directions[id.x].xyz, 0.5, 0.0);
+    var ray = cloud_ray(observer, directions[id.x].xyz, 0.5, 0.0);
+    if GROUND {
+        let distance_m = lit_ground[id.x].w;
+        ray.stop_m = select(ray.end_m, distance_m, distance_m >= 0.0);
+    }
     answers[id.x] = clouds_seen(ray, march_clouds(ray));
 }

@@ -2,11 +2,13 @@
 import package::lib::camera::{Camera, sight_at};
 import package::lib::cloud_march::march_clouds;
 import package::lib::cloud_nodes::Nodes;
-import package::lib::cloud_ray::cloud_ray;
+import package::lib::cloud_ray::{cloud_ray, sight_of_clouds};
 import package::lib::view_ray::Observer;
 
 // As `sight_at` numbers it.
 override PROJECTION: u32 = 0u;
+// True where more than the sphere stands on the ground.
+override GROUND: bool = false;
 
 // True where the whole frame has its places in one buffer, false where the tile has one of its own.
 override WHOLE_FRAME: bool = false;
@@ -23,6 +25,8 @@ struct Tile {
 @group(0) @binding(12) var<uniform> observer: Observer;
 // Six vectors a pixel, as `Nodes` has them.
 @group(0) @binding(13) var<storage, read_write> nodes: array<vec4f>;
+// In alpha, how far away what stands on the ground is; else -1.
+@group(0) @binding(14) var<storage, read> lit_ground: array<vec4f>;
 
 // Interleaved gradient noise (Jimenez 2014): even over every 3×3 pixels, so that what is left of it is fine-grained.
 fn jitter_of(pixel: vec2f) -> f32 {
@@ -35,11 +39,17 @@ fn cloud_view(@builtin(global_invocation_id) id: vec3u) {
         return;
     }
     let in_frame = tile.origin_px + tile.stride_px * id.xy;
-    let pixel = vec2f(in_frame);
+    // What lies left of the frame wraps round.
+    let pixel = vec2f(vec2i(in_frame));
     let sight = sight_at(camera, PROJECTION, pixel + 0.5);
     var seen: Nodes;
     if sight.seen {
-        seen = march_clouds(cloud_ray(observer, sight.direction, jitter_of(pixel), 0.0));
+        var ray = cloud_ray(observer, sight_of_clouds(sight.direction, camera.pixel_angle), jitter_of(pixel), 0.0);
+        if GROUND {
+            let distance_m = lit_ground[id.y * tile.size_px.x + id.x].w;
+            ray.stop_m = select(ray.end_m, distance_m, distance_m >= 0.0);
+        }
+        seen = march_clouds(ray);
     }
     var at = 6u * (id.y * tile.size_px.x + id.x);
     if WHOLE_FRAME {

@@ -1,7 +1,7 @@
 // The light of the clouds that every pixel of one tile sees.
 import package::lib::camera::{Camera, sight_at};
 import package::lib::cloud_nodes::{FourNodes, Nodes};
-import package::lib::cloud_ray::cloud_ray;
+import package::lib::cloud_ray::{cloud_ray, sight_of_clouds};
 import package::lib::cloud_seen::clouds_seen;
 import package::lib::view_ray::Observer;
 
@@ -10,6 +10,9 @@ override PROJECTION: u32 = 0u;
 
 // True where the whole frame has its places in one buffer, false where the tile has one of its own.
 override WHOLE_FRAME: bool = false;
+
+// True where more than the sphere stands on the ground.
+override GROUND: bool = false;
 
 struct Tile {
     origin_px: vec2u,
@@ -25,6 +28,8 @@ struct Tile {
 @group(0) @binding(21) var<storage, read> nodes: array<vec4f>;
 // Radiance to add in R, G, B; alpha is the share of what lies behind that comes through.
 @group(0) @binding(22) var table: texture_storage_2d<rgba32float, write>;
+// In alpha, how far away what stands on the ground is; else -1.
+@group(0) @binding(23) var<storage, read> lit_ground: array<vec4f>;
 
 @compute @workgroup_size(8, 8)
 fn cloud_view_light(@builtin(global_invocation_id) id: vec3u) {
@@ -35,7 +40,11 @@ fn cloud_view_light(@builtin(global_invocation_id) id: vec3u) {
     let sight = sight_at(camera, PROJECTION, vec2f(in_frame) + 0.5);
     var value = vec4f(0.0, 0.0, 0.0, 1.0);
     if sight.seen {
-        let ray = cloud_ray(observer, sight.direction, 0.5, 0.0);
+        var ray = cloud_ray(observer, sight_of_clouds(sight.direction, camera.pixel_angle), 0.5, 0.0);
+        if GROUND {
+            let distance_m = lit_ground[id.y * tile.size_px.x + id.x].w;
+            ray.stop_m = select(ray.end_m, distance_m, distance_m >= 0.0);
+        }
         var k = 6u * (id.y * tile.size_px.x + id.x);
         if WHOLE_FRAME {
             k = 6u * (in_frame.y * u32(camera.size_px.x) + in_frame.x);

@@ -20,6 +20,8 @@ override MOON: bool = false;
 override MOONLIGHT: bool = false;
 // True where there are clouds.
 override CLOUDS: bool = false;
+// True where more than the sphere stands on the ground.
+override GROUND: bool = false;
 
 // Where the clouds' shadows fall.
 struct CloudFrame {
@@ -58,6 +60,8 @@ struct Answer {
 @group(0) @binding(15) var<uniform> shade: CloudShade;
 @group(0) @binding(16) var shade_maps: texture_2d_array<f32>;
 @group(0) @binding(17) var<uniform> cloud_frame: CloudFrame;
+// Of each direction: radiance and distance of what stands on the ground; or what the sky loses to shafts, and -1.
+@group(0) @binding(18) var<storage, read> lit_ground: array<vec4f>;
 
 // A ray that nothing stops.
 const ENDLESS_M = 1e12;
@@ -83,7 +87,12 @@ fn probe(@builtin(global_invocation_id) id: vec3u) {
     let direction = directions[id.x].xyz;
     let mu = clamp(dot(direction, view.up), -1.0, 1.0);
     let nu = clamp(dot(direction, view.sun), -1.0, 1.0);
-    let ground_m = distance_to_sphere(air.radius_m, view.altitude_m, mu);
+    var ground_m = distance_to_sphere(air.radius_m, view.altitude_m, mu);
+    var before = vec4f(0.0, 0.0, 0.0, -1.0);
+    if GROUND {
+        before = lit_ground[id.x];
+        ground_m = select(ground_m, before.w, before.w >= 0.0);
+    }
     let ground = ground_m >= 0.0;
     let entry = enter_air(air, observer, mu, nu, ground, ground_m);
     var light: Scattered;
@@ -117,6 +126,9 @@ fn probe(@builtin(global_invocation_id) id: vec3u) {
         }
     }
     var radiance = between + transmittance * behind;
+    if GROUND {
+        radiance = select(max(radiance - before.rgb, vec3f(0.0)), before.rgb, before.w >= 0.0);
+    }
     var left = 1.0;
     if CLOUDS {
         let clouds = clouds_seen[id.x];

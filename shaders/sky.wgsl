@@ -2,13 +2,13 @@
 // variant of this pass: what is seen on a lattice of places, one to a few pixels; under clouds a finer lattice that
 // takes the clear sky from the first; and the pixels between.
 import package::lib::camera::sight_at;
-import package::lib::dome::{BLOCK_CORNERS, BLOCK_SIDE, Dome, dome_cell};
+import package::lib::dome::{Dome, dome_cell, dome_coordinate};
 import package::lib::even::{cell_evenness, is_even_run};
-import package::lib::geometry::{angle_if_near, edge_zenith_angle};
+import package::lib::geometry::{angle_if_near, angle_of_cosine, edge_cosine};
 import package::lib::picture::{Exposure, Tone, packed_pixel, picture_pixel, shown_colour};
 import package::lib::sky_light::{
-    CLOUDS, Light, MOON, PROJECTION, air, camera, cloud_frame, corona_towards, disc_in_pixel, light_towards, moon,
-    moon_in_pixel, radiance_of, view,
+    CLOUDS, Light, MOON, PROJECTION, air, camera, cloud_frame, corona_towards, disc_in_pixel, light_towards, linear_clamp,
+    moon, moon_in_pixel, radiance_of, shade, share_above, view,
 };
 
 // 0: every pixel; 1: the lattice; 2: the finer lattice; 3: the pixels between.
@@ -29,6 +29,8 @@ override SPAN: u32 = 1u;
 override CURVE: u32 = 3u;
 // True to look clouds up by direction, false for a table of the tile's pixels.
 override DOME: bool = false;
+// True where more than the sphere stands on the ground, or shafts fall through the air.
+override GROUND: bool = false;
 
 struct Tile {
     origin_px: vec2u,
@@ -52,7 +54,9 @@ struct Tile {
 @group(0) @binding(25) var<uniform> dome: Dome;
 // Where each block of the dome is kept, and what is seen of clouds at their corners.
 @group(0) @binding(26) var<storage, read> dome_pages: array<u32>;
-@group(0) @binding(27) var<storage, read> dome_seen: array<vec4f>;
+@group(0) @binding(27) var dome_seen: texture_2d<f32>;
+// Of each pixel of the tile: radiance and distance of what stands on the ground; or what the sky loses to shafts, and -1.
+@group(0) @binding(28) var<storage, read> lit_ground: array<vec4f>;
 
 // Pixels of a row that share a thread of the last stage, and of which uneven ones may share as SPAN says.
 const BLOCK = 8u;
@@ -62,11 +66,9 @@ fn glaring() -> vec3f {
 }
 
 fn clouds_towards(direction: vec3f) -> vec4f {
-    let cell = dome_cell(dome, direction, view.up, cos(edge_zenith_angle(air.radius_m, view.altitude_m)));
-    let i = dome_pages[cell.page] * BLOCK_CORNERS + cell.corner;
-    let top = mix(dome_seen[i], dome_seen[i + 1u], cell.part.x);
-    let bottom = mix(dome_seen[i + BLOCK_SIDE], dome_seen[i + BLOCK_SIDE + 1u], cell.part.x);
-    return mix(top, bottom, cell.part.y);
+    let cell = dome_cell(dome, direction, view.up, edge_cosine(air.radius_m, view.altitude_m));
+    let at = dome_coordinate(dome_pages[cell.page], cell.place, textureDimensions(dome_seen));
+    return textureSampleLevel(dome_seen, linear_clamp, at, 0.0);
 }
 
 // Before the clouds, if there are any. `place` is the pixel's in the tile.
@@ -81,6 +83,22 @@ fn with_clouds(behind: vec3f, place: vec2u, direction: vec3f) -> vec3f {
         clouds = textureLoad(cloud_table, place, 0);
     }
     return max(clouds.a * behind + clouds.rgb, vec3f(0.0));
+}
+
+// A pixel that the horizon crosses, seen from under the clouds: they stand before the sky's share of it alone.
+fn on_horizon(direction: vec3f, above: f32, disc: vec3f, lost: vec3f, place: vec2u) -> vec3f {
+    let off = edge_cosine(air.radius_m, view.altitude_m) - dot(direction, view.up);
+    let sky = normalize(direction + (off + 0.6 * camera.pixel_angle) * view.up);
+    let ground = normalize(direction + (off - 0.6 * camera.pixel_angle) * view.up);
+    let sky_nu = clamp(dot(sky, view.sun), -1.0, 1.0);
+    let ground_nu = clamp(dot(ground, view.sun), -1.0, 1.0);
+    let behind = max(radiance_of(light_towards(sky, dot(sky, view.up), sky_nu), sky_nu, disc) - lost, vec3f(0.0));
+    let clear = radiance_of(light_towards(ground, dot(ground, view.up), ground_nu), ground_nu, vec3f(0.0));
+    var below = max(clear - lost, vec3f(0.0));
+    if DOME {
+        below = with_clouds(below, place, ground);
+    }
+    return mix(below, with_clouds(behind, place, sky), above);
 }
 
 // The tile's pixels from `begin` to `end` of a row, which may share the light at the first and the last of SPAN from
@@ -104,10 +122,23 @@ fn write_run(first: vec2u, begin: u32, end: u32) {
     let y = (first.y - tile.origin_px.y) / tile.stride_px;
     var x = (first.x + begin - tile.origin_px.x) / tile.stride_px;
     for (var k = begin; k < end; k += tile.stride_px) {
+        let i = y * tile.size_px.x + x;
         let place = row + vec2f(f32(k), 0.0);
         let sight = sight_at(camera, PROJECTION, place);
         var value = vec4f(0.0);
-        if sight.seen {
+        var before = vec4f(0.0, 0.0, 0.0, -1.0);
+        if GROUND {
+            before = lit_ground[i];
+        }
+        if sight.seen && before.w >= 0.0 {
+            // Where there is a dome, no cloud stands before the ground.
+            var seen = before.rgb;
+            if !DOME {
+                seen = with_clouds(seen, vec2u(x, y), sight.direction);
+            }
+            value = vec4f(seen, 1.0 + angle_if_near(sight.direction, glaring()));
+        }
+        for (var open = sight.seen && before.w < 0.0; open; open = false) {
             var disc = disc_in_pixel(place, sight.direction);
             if MOON {
                 disc = moon.sun_disc_scale * (disc + corona_towards(sight.direction));
@@ -129,13 +160,23 @@ fn write_run(first: vec2u, begin: u32, end: u32) {
             } else {
                 light = light_towards(sight.direction, dot(sight.direction, view.up), nu);
             }
-            var seen = with_clouds(radiance_of(light, nu, select(disc, vec3f(0.0), DOME)), vec2u(x, y), sight.direction);
+            let own = select(disc, vec3f(0.0), DOME);
+            var lost = vec3f(0.0);
+            if GROUND {
+                lost = before.rgb;
+            }
+            var seen: vec3f;
+            let above = share_above(angle_of_cosine(dot(sight.direction, view.up)));
+            if CLOUDS && above > 0.0 && above < 1.0 && view.altitude_m < shade.base_m {
+                seen = on_horizon(sight.direction, above, own, lost, vec2u(x, y));
+            } else {
+                seen = with_clouds(max(radiance_of(light, nu, own) - lost, vec3f(0.0)), vec2u(x, y), sight.direction);
+            }
             if DOME {
                 seen += light.left * disc;
             }
             value = vec4f(seen, 1.0 + angle_if_near(sight.direction, glaring()));
         }
-        let i = y * tile.size_px.x + x;
         if PICTURE {
             picture[i] = picture_pixel(tone_settings, exposure.scale, CURVE, value, first + vec2u(k, 0u));
         } else {
@@ -143,6 +184,18 @@ fn write_run(first: vec2u, begin: u32, end: u32) {
         }
         x++;
     }
+}
+
+// True where something stands on the ground in a block of pixels, from `begin` to before `end`.
+fn is_ground_within(begin: vec2u, end: vec2u) -> bool {
+    var there = false;
+    for (var y = begin.y; y < end.y; y++) {
+        for (var x = begin.x; x < end.x; x++) {
+            let before = lit_ground[(y - tile.origin_px.y) * tile.size_px.x + x - tile.origin_px.x];
+            there |= before.w >= 0.0;
+        }
+    }
+    return there;
 }
 
 // Lattices lie on the whole frame, so that tiles leave no seam. This is the first place of the tile's part.
@@ -193,6 +246,13 @@ fn write_place(id: vec2u) {
         let nu = clamp(dot(sight.direction, view.sun), -1.0, 1.0);
         clear.seen = radiance_of(light_towards(sight.direction, dot(sight.direction, view.up), nu), nu, vec3f(0.0));
     }
+    if GROUND {
+        // Places beyond the tile's edge lose what those at the edge do.
+        let within = clamp(pixel, tile.origin_px, tile.origin_px + tile.size_px - 1u) - tile.origin_px;
+        let before = lit_ground[within.y * tile.size_px.x + within.x];
+        clear.seen -= select(before.rgb, vec3f(0.0), before.w >= 0.0 || (STAGE == 2u && clear.even == 2.0));
+        clear.seen = max(clear.seen, vec3f(0.0));
+    }
     var even = clear.even;
     if even == 0.0 {
         let veil = tone_settings.glare > 0.0 && any(tone_settings.glaring_irradiance > vec3f(0.0));
@@ -226,6 +286,9 @@ fn write_block(id: vec2u) {
     var even = true;
     for (var x = cells_begin; x < cells_end; x++) {
         even &= lattice[i + x - cells_begin].a > 0.0;
+    }
+    if GROUND {
+        even &= !is_ground_within(begin, end);
     }
     if !even {
         for (var y = begin.y; y < end.y; y++) {

@@ -1,7 +1,7 @@
 // Adds the stars to a tile of the picture. The list holds each pixel once, so that no two threads meet.
 import package::lib::air::Air;
-import package::lib::dome::{BLOCK_CORNERS, BLOCK_SIDE, Dome, dome_cell};
-import package::lib::geometry::edge_zenith_angle;
+import package::lib::dome::{Dome, dome_cell, dome_coordinate};
+import package::lib::geometry::edge_cosine;
 import package::lib::light::View;
 import package::lib::stars::light_left;
 
@@ -30,6 +30,8 @@ struct Stretch {
 override CLOUDS: bool = false;
 // True to look clouds up by direction, false for a table of the tile's pixels.
 override DOME: bool = false;
+// True where more than the sphere stands on the ground.
+override GROUND: bool = false;
 
 @group(0) @binding(0) var<uniform> air: Air;
 @group(0) @binding(1) var<uniform> view: View;
@@ -43,14 +45,14 @@ override DOME: bool = false;
 @group(0) @binding(8) var<uniform> dome: Dome;
 // Where each block of the dome is kept, and what is seen of clouds at their corners.
 @group(0) @binding(9) var<storage, read> dome_pages: array<u32>;
-@group(0) @binding(10) var<storage, read> dome_seen: array<vec4f>;
+@group(0) @binding(10) var dome_seen: texture_2d<f32>;
+// Of each pixel, in alpha, how far away that is; else -1.
+@group(0) @binding(11) var<storage, read> lit_ground: array<vec4f>;
 
 fn left_towards(direction: vec3f) -> f32 {
-    let cell = dome_cell(dome, direction, view.up, cos(edge_zenith_angle(air.radius_m, view.altitude_m)));
-    let i = dome_pages[cell.page] * BLOCK_CORNERS + cell.corner;
-    let top = mix(dome_seen[i].a, dome_seen[i + 1u].a, cell.part.x);
-    let bottom = mix(dome_seen[i + BLOCK_SIDE].a, dome_seen[i + BLOCK_SIDE + 1u].a, cell.part.x);
-    return mix(top, bottom, cell.part.y);
+    let cell = dome_cell(dome, direction, view.up, edge_cosine(air.radius_m, view.altitude_m));
+    let at = dome_coordinate(dome_pages[cell.page], cell.place, textureDimensions(dome_seen));
+    return textureSampleLevel(dome_seen, linear_clamp, at, 0.0).a;
 }
 
 @compute @workgroup_size(64)
@@ -72,5 +74,9 @@ fn stars(@builtin(global_invocation_id) id: vec3u) {
     } else if CLOUDS {
         left *= textureLoad(cloud_table, place, 0).a;
     }
-    radiance[place.y * stretch.size_px.x + place.x] += vec4f(stretch.out * left * glint.radiance, 0.0);
+    let i = place.y * stretch.size_px.x + place.x;
+    if GROUND {
+        left *= select(1.0, 0.0, lit_ground[i].w >= 0.0);
+    }
+    radiance[i] += vec4f(stretch.out * left * glint.radiance, 0.0);
 }

@@ -23,7 +23,10 @@ fn welkin(args: &[&str], home: &Path) -> Output {
 fn problem(output: &Output, code: i32) -> Value {
     let said = String::from_utf8_lossy(&output.stderr);
     assert_eq!(output.status.code(), Some(code), "{said}");
-    serde_json::from_slice(&output.stderr).unwrap()
+    // The log may have told before of files that are of no use.
+    let begin = said.lines().position(|line| line.starts_with('{')).unwrap();
+    let told: Vec<_> = said.lines().skip(begin).collect();
+    serde_json::from_str(&told.join("\n")).unwrap()
 }
 
 /// A folder with a scene that names the weather map `front`, and the path of that scene.
@@ -78,4 +81,35 @@ fn where_there_is_no_folder_that_is_told() {
         missing["detail"].as_str().unwrap().contains("no such folder"),
         "{missing}"
     );
+}
+
+/// Files of every kind are looked for in the folder, and what is wrong with one is told under the field that names it.
+#[test]
+fn terrain_that_cannot_be_used_is_refused_with_its_reason() {
+    let folder = tempfile::tempdir().unwrap();
+    let hut = folder.path().join("meshes/hut");
+    fs::create_dir_all(&hut).unwrap();
+    fs::write(hut.join("hut.obj"), "mtllib ../secret.mtl\nv 0 0 0\n").unwrap();
+    fs::create_dir(folder.path().join("heightfields")).unwrap();
+    fs::write(folder.path().join("heightfields/alps.tif"), "no TIFF").unwrap();
+    let assets = folder.path().to_string_lossy().into_owned();
+    let path = folder.path().join("scene.json");
+    for (terrain, told) in [
+        (r#"{"kind": "mesh", "name": "hut"}"#, "../secret.mtl"),
+        (
+            r#"{"kind": "mesh", "name": "town"}"#,
+            "there is no asset town among the meshes",
+        ),
+        (
+            r#"{"kind": "heightfield", "name": "alps"}"#,
+            "send a grey PNG of 16 bits, a GeoTIFF or an NPY",
+        ),
+    ] {
+        fs::write(&path, format!(r#"{{"terrain": {terrain}}}"#)).unwrap();
+        let scene = path.to_string_lossy().into_owned();
+        let args = ["probe", &scene, "[[0, 0, 1]]", "--json", "--assets", &assets];
+        let problem = problem(&welkin(&args, folder.path()), 2);
+        assert_eq!(problem["pointer"], "/terrain/name");
+        assert!(problem["detail"].as_str().unwrap().contains(told), "{problem}");
+    }
 }

@@ -263,6 +263,105 @@ fn six_skies_are_compared_with_brute_force() {
 }
 
 #[test]
+fn ground_is_measured_with_shadows_and_shafts_and_without() {
+    let (report, _) = measured_with(
+        "ground",
+        "no/such/folder",
+        &["--tables".as_ref(), "final-approach".as_ref()],
+    );
+    assert_eq!(report["faults"], json!([]));
+    let rows = report["rows"].as_array().unwrap();
+    let works = [
+        "first-frame",
+        "sun-moved",
+        "camera-turned",
+        "camera-moved",
+        "nothing-changed",
+        "air-changed",
+    ];
+    // Two places, two meshes and three lights; the mountains by seed of the other table take seconds a process to make.
+    assert_eq!(rows.len(), 2 * 2 * 3 * works.len());
+    let ran = |row: &Value, pass: &str| {
+        let passes = row["passes"].as_array().unwrap();
+        passes.iter().any(|ran| ran["pass"] == pass)
+    };
+    for rows in rows.chunks(works.len()) {
+        for (row, work) in rows.iter().zip(works) {
+            assert_eq!(row["work"], work);
+            let rendered = work != "nothing-changed";
+            assert_eq!(!row["passes"].as_array().unwrap().is_empty(), rendered, "{row}");
+            let light = row["light"].as_str().unwrap();
+            assert_eq!(ran(row, "ground_view"), rendered, "{row}");
+            let shadowed = light != "plain" && ["first-frame", "sun-moved"].contains(&work);
+            assert_eq!(ran(row, "ground_shadow"), shadowed, "{row}");
+            let shafted = light == "shadows-and-shafts" && rendered;
+            assert_eq!(ran(row, "shafts"), shafted, "{row}");
+            // Times are not judged, but the ratio must be of the times that stand in the report.
+            assert_eq!(row["cost"].is_null(), light == "plain", "{row}");
+            let plain = rows_beside(&report, row);
+            let time = if report["kind"] == "cpu" {
+                "cpu_ms"
+            } else {
+                "wall_ms"
+            };
+            if let (Some(ratio), Some(ms)) = (row["cost"]["ratio"].as_f64(), plain[time].as_f64()) {
+                assert!(
+                    (ratio * ms / row[time].as_f64().unwrap() - 1.0).abs() < 1e-9,
+                    "{row}"
+                );
+            }
+            let counts = light == "shadows-and-shafts" && work.starts_with("camera-");
+            assert_eq!(row["target_cost_ratio"], json!(counts.then_some(2.0)), "{row}");
+        }
+    }
+}
+
+/// The same work without shadows and shafts.
+fn rows_beside<'a>(report: &'a Value, row: &Value) -> &'a Value {
+    let all = report["rows"].as_array().unwrap().iter();
+    let mut plain = all.filter(|other| {
+        let same = |field| other[field] == row[field];
+        other["light"] == "plain" && ["table", "work", "relief", "place"].into_iter().all(same)
+    });
+    plain.next().unwrap()
+}
+
+#[test]
+fn ground_is_measured_by_the_size_of_its_shadow_map_and_of_its_mesh() {
+    let (report, _) = measured_with(
+        "ground",
+        "no/such/folder",
+        &["--tables".as_ref(), "shadow-maps,triangles".as_ref()],
+    );
+    assert_eq!(report["faults"], json!([]));
+    let rows = report["rows"].as_array().unwrap();
+    let of = |table: &'static str| rows.iter().filter(move |row| row["table"] == table);
+    let sizes: Vec<_> = of("shadow-maps")
+        .map(|row| {
+            (
+                row["work"].as_str().unwrap(),
+                row["varied"]["shadow_size_px"].as_u64().unwrap(),
+            )
+        })
+        .collect();
+    let both = |size| [("sun-moved", size), ("camera-turned", size)];
+    assert_eq!(sizes, [512, 1024, 2048, 4096, 8192].map(both).concat());
+    let turned: Vec<_> = of("triangles")
+        .filter(|row| row["work"] == "camera-turned")
+        .collect();
+    let [few, many] = turned[..] else {
+        panic!("{turned:?}")
+    };
+    assert_eq!(
+        (&few["triangles"], &many["triangles"]),
+        (&json!(99_856), &json!(1_000_000))
+    );
+    assert!(few["cost"].is_null() && few["target_cost_ratio"].is_null());
+    assert_eq!(many["target_cost_ratio"], json!(1.5));
+    assert!(many["cost"]["ratio"].as_f64().unwrap() > 0.0);
+}
+
+#[test]
 fn a_report_that_cannot_be_written_is_told_before_anything_is_measured() {
     let folder = tempfile::tempdir().unwrap();
     let mut command = Command::new(env!("CARGO_BIN_EXE_welkin"));
@@ -279,7 +378,10 @@ fn a_report_that_cannot_be_written_is_told_before_anything_is_measured() {
 #[test]
 fn what_cannot_be_measured_is_told() {
     for (arguments, words) in [
-        (["no-such-case", "--rounds", "1"], "there are sky, air, clouds"),
+        (
+            ["no-such-case", "--rounds", "1"],
+            "there are sky, air, clouds, ground",
+        ),
         (["sky", "--sizes", "640"], "WIDTHxHEIGHT"),
         (["sky", "--rounds", "0"], "--rounds"),
         (["sky", "--tables", "truth"], "there are none"),

@@ -100,6 +100,9 @@ fn every_command_in_the_documentation_runs() {
     let folder = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join("docs");
     drop(fs::remove_dir_all(&folder));
     fs::create_dir_all(&folder).unwrap();
+    // Who reads the documentation stands in the repository.
+    let tests = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests");
+    std::os::unix::fs::symlink(tests, folder.join("tests")).unwrap();
     // So that curl fails where the server refuses.
     fs::write(folder.join(".curlrc"), "fail-with-body\n").unwrap();
     let path = format!(

@@ -8,6 +8,7 @@ use super::{
 use crate::{commands::Failure, settings::Settings};
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, json};
+use std::sync::Arc;
 use welkin_scene::{Camera, Direction, Method, Projection, Quality, Scene, SunPosition, preset};
 
 /// Those of the thesis.
@@ -76,6 +77,7 @@ impl Case for Air {
             renderer: &*renderer,
             size,
             quality: Quality::Final,
+            assets: Arc::default(),
         };
         // Compiles the shaders and finds the size of tiles, at a quarter of the cost.
         let Size { width_px, height_px } = setup.size;

@@ -7,6 +7,7 @@
 mod air;
 mod baseline;
 mod clouds;
+mod ground;
 mod jobs;
 mod page;
 mod plots;
@@ -32,7 +33,7 @@ use stopwatch::Spent;
 use welkin_scene::renderer::{DeviceInfo, PassTime};
 
 /// All cases.
-pub(crate) static CASES: [&dyn Case; 4] = [&sky::Sky, &air::Air, &clouds::CloudCase, &jobs::JobCase];
+pub(crate) static CASES: [&dyn Case; 5] = [&sky::Sky, &air::Air, &clouds::CloudCase, &ground::Ground, &jobs::JobCase];
 
 /// Something to measure.
 pub(crate) trait Case: Sync {
@@ -59,7 +60,12 @@ pub(crate) trait Case: Sync {
         None
     }
 
-    /// How near to the reference a piece of work should come.
+    /// The setup that lacks what this one has and otherwise is the same; none where the case knows none.
+    fn plainer(&self, _setup: &Setup) -> Option<Setup> {
+        None
+    }
+
+    /// How near to the reference a piece of work should come, and what it may cost over the plainer setup.
     fn limits(&self, _setup: &Setup, _work: &str) -> Limits {
         Limits::default()
     }
@@ -89,13 +95,15 @@ pub(crate) trait Case: Sync {
     fn measure(&self, setup: &Setup, settings: &Settings) -> Result<Account, Failure>;
 }
 
-/// How far a frame may be from the reference; none where nobody says.
+/// How far a frame may be from the reference and what it may cost; none where nobody says.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct Limits {
     /// Relative RMSE of radiance.
     pub(crate) error: Option<f64>,
     /// Mean FLIP error.
     pub(crate) flip: Option<f64>,
+    /// How many times what the plainer setup costs.
+    pub(crate) cost: Option<f64>,
 }
 
 /// What one process measured.

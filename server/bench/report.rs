@@ -62,6 +62,13 @@ pub(crate) struct Row {
     pub(crate) slower: Option<Setup>,
     /// Over the same work there.
     pub(crate) speedup: Option<Speedup>,
+    /// The setup that lacks what this one has.
+    #[serde(skip)]
+    pub(crate) plainer: Option<Setup>,
+    /// What that which it has besides costs.
+    pub(crate) cost: Option<Cost>,
+    /// What `cost.ratio` should be at most.
+    pub(crate) target_cost_ratio: Option<f64>,
     /// As the case defines it.
     pub(crate) error: Option<f64>,
     /// What `error` should be at most.
@@ -87,6 +94,13 @@ pub(crate) struct Speedup {
     pub(crate) cpu_ratio: Option<f64>,
 }
 
+/// What a piece of work costs over the same under a plainer setup.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub(crate) struct Cost {
+    /// Of the medians, ours over its: of processor time on a software adapter, else of time on the clock.
+    pub(crate) ratio: f64,
+}
+
 /// A frame of the baseline at the same size.
 #[derive(Debug, Serialize)]
 pub(crate) struct BaselineRow {
@@ -110,6 +124,7 @@ impl Row {
             |found: Option<f64>, most: Option<f64>| found.zip(most).is_some_and(|(found, most)| found > most);
         over(self.error, self.target_error)
             || over(self.flip, self.target_flip)
+            || over(self.cost.map(|cost| cost.ratio), self.target_cost_ratio)
             || self
                 .baselines
                 .iter()
@@ -157,6 +172,10 @@ impl Report {
         for (row, speedup) in rows.iter_mut().zip(speedups) {
             row.speedup = speedup;
         }
+        let costs: Vec<_> = rows.iter().map(|row| cost(row, &rows, &device.kind)).collect();
+        for (row, cost) in rows.iter_mut().zip(costs) {
+            row.cost = cost;
+        }
         if baseline_absent.is_some() {
             rows.iter_mut().for_each(|row| row.baselines.clear());
         }
@@ -174,9 +193,7 @@ impl Report {
 }
 
 fn speedup(row: &Row, rows: &[Row]) -> Option<Speedup> {
-    let slower = row.slower.as_ref()?;
-    let beside = |other: &&Row| (other.case, &other.setup, &other.work) == (row.case, slower, &row.work);
-    let slower = rows.iter().find(beside)?;
+    let slower = beside(row, row.slower.as_ref()?, rows)?;
     Some(Speedup {
         wall_ratio: slower.spent.wall_ms / row.spent.wall_ms,
         cpu_ratio: slower
@@ -185,6 +202,26 @@ fn speedup(row: &Row, rows: &[Row]) -> Option<Speedup> {
             .zip(row.spent.cpu_ms)
             .map(|(other, own)| other / own),
     })
+}
+
+fn cost(row: &Row, rows: &[Row], kind: &str) -> Option<Cost> {
+    let plainer = beside(row, row.plainer.as_ref()?, rows)?;
+    let spent = |row: &Row| {
+        if kind == "cpu" {
+            row.spent.cpu_ms.unwrap_or(row.spent.wall_ms)
+        } else {
+            row.spent.wall_ms
+        }
+    };
+    Some(Cost {
+        ratio: spent(row) / spent(plainer),
+    })
+}
+
+/// The same work of the same case under another setup.
+fn beside<'a>(row: &Row, setup: &Setup, rows: &'a [Row]) -> Option<&'a Row> {
+    let same = |other: &&Row| (other.case, &other.setup, &other.work) == (row.case, setup, &row.work);
+    rows.iter().find(same)
 }
 
 fn rows(one: &Measurements) -> Vec<Row> {
@@ -229,6 +266,9 @@ fn row(one: &Measurements, at: usize) -> Option<Row> {
         spent,
         slower: one.case.slower(&one.setup),
         speedup: None,
+        plainer: one.case.plainer(&one.setup),
+        cost: None,
+        target_cost_ratio: limits.cost,
         error: median(works.iter().filter_map(|work| work.error)),
         target_error: limits.error,
         flip: median(works.iter().filter_map(|work| work.flip)),

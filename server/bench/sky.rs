@@ -7,6 +7,7 @@ use super::{
 };
 use crate::{commands::Failure, settings::Settings};
 use serde_json::{Map, json};
+use std::sync::Arc;
 use welkin_encode::{Options, encode};
 use welkin_scene::{Atmosphere, Direction, Format, Projection, Quality, Scene, SunPosition, renderer::Frame};
 
@@ -50,6 +51,7 @@ impl Case for Sky {
             renderer: &*renderer,
             size: setup.size,
             quality,
+            assets: Arc::default(),
         };
         let (mut first, _) = viewer.see("first-frame", &scene)?;
         first.spent = watch.stop();

@@ -4,7 +4,7 @@ use super::report::{Report, Row};
 use serde_json::Value;
 use std::fmt;
 
-pub(super) const HEAD: [&str; 12] = [
+pub(super) const HEAD: [&str; 13] = [
     "case",
     "size",
     "setup",
@@ -12,6 +12,7 @@ pub(super) const HEAD: [&str; 12] = [
     "wall ms",
     "CPU ms",
     "faster",
+    "cost",
     "baselines",
     "error",
     "FLIP",
@@ -19,7 +20,7 @@ pub(super) const HEAD: [&str; 12] = [
     "passes, ms",
 ];
 /// Columns of figures, which are set to the right.
-pub(super) const FIGURES: std::ops::Range<usize> = 4..11;
+pub(super) const FIGURES: std::ops::Range<usize> = 4..12;
 
 impl fmt::Display for Report {
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
@@ -105,6 +106,10 @@ pub(super) fn cells(row: &Row) -> [String; HEAD.len()] {
         format!("{:.1}", row.spent.wall_ms),
         row.spent.cpu_ms.map_or_else(String::new, |ms| format!("{ms:.1}")),
         faster,
+        limited(
+            row.cost.map(|cost| format!("{:.2}x", cost.ratio)),
+            row.target_cost_ratio,
+        ),
         baselines.collect::<Vec<_>>().join(", "),
         limited(row.error.map(|error| format!("{error:.2e}")), row.target_error),
         limited(row.flip.map(|flip| format!("{flip:.3}")), row.target_flip),

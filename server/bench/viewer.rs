@@ -6,6 +6,7 @@ use serde_json::Map;
 use std::sync::Arc;
 use welkin_scene::{
     Direction, ProbeRequest, Quality, Scene,
+    assets::SceneAssets,
     renderer::{Frame, FrameOrder, Output, Pixels, Priority, Render},
 };
 
@@ -35,6 +36,8 @@ pub(super) struct Viewer<'a> {
     pub(super) renderer: &'a dyn Render,
     pub(super) size: Size,
     pub(super) quality: Quality,
+    /// What the scenes name.
+    pub(super) assets: Arc<SceneAssets>,
 }
 
 /// A pixel of a frame, to be compared.
@@ -75,7 +78,7 @@ impl Viewer<'_> {
     fn order(&self, scene: &Scene, size: Size, output: Output) -> FrameOrder {
         FrameOrder {
             scene: Arc::new(scene.clone()),
-            assets: Arc::default(),
+            assets: Arc::clone(&self.assets),
             width_px: size.width_px,
             height_px: size.height_px,
             quality: self.quality,

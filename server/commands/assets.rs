@@ -40,7 +40,7 @@ fn made(folder: &Path, settings: &Settings) -> Result<Store, Failure> {
 /// # Errors
 /// Where the scene names what there is not, or the folder cannot be read.
 pub(crate) fn of_scene(settings: &Settings, scene: &Scene) -> Result<Arc<SceneAssets>, Failure> {
-    if scene.weather_map_references().is_empty() {
+    if scene.asset_references().is_empty() {
         return Ok(Arc::default());
     }
     let there = |folder: &PathBuf| settings.named_assets_folder().is_some() || folder.exists();

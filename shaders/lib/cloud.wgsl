@@ -132,6 +132,12 @@ fn one_or(count: u32) -> u32 {
     return count;
 }
 
+// Of all bands and sheets; each stand in the order of their heights.
+fn lowest_cloud_m() -> f32 {
+    let band_m = select(1e9, clouds.bands[0].base_m, clouds.band_count > 0u);
+    return min(band_m, select(1e9, clouds.sheets[0].height_m, clouds.sheet_count > 0u));
+}
+
 struct Weather {
     coverage: f32,
     cloud_type: f32,
@@ -168,13 +174,13 @@ fn weather_of(source: WeatherSource, map: texture_2d<f32>, along_m: vec2f) -> We
         return Weather(first.r, 0.5 + 0.5 * first.a, 0.0, max(first.b, 0.05), first.g, 0.0);
     }
     var seen = first.rgb;
-    // Loops of one round at most, here and below: a software device runs what an `if` leaves out.
-    for (var twice = source.twice > 0.0; twice; twice = false) {
+    // Branches, here and below: a software device skips what no lane of a group takes, and runs loops of no round once.
+    if source.twice > 0.0 {
         let second = textureSampleLevel(map, linear_repeat, SECOND_LOOK * at - source.second_drift, 0.0).rgb;
         seen = share_below(first.rgb + SECOND_WEIGHT * second);
         // Far from the scene, where only a flight or an orbit leads, weather systems gather what is even about it.
         let far = smoothstep(1e5, 6e5, length(along_m));
-        for (var there = far > 0.0; there; there = false) {
+        if far > 0.0 {
             let system = textureSampleLevel(map, linear_repeat, SYSTEMS * at, 0.0).rgb;
             seen = mix(seen, share_below(system + SECOND_WEIGHT * seen), far);
         }
@@ -185,7 +191,7 @@ fn weather_of(source: WeatherSource, map: texture_2d<f32>, along_m: vec2f) -> We
 fn weather_at(along_m: vec2f) -> Weather {
     var a = weather_of(clouds.weather[0], first_weather, along_m);
     let s = clouds.weather_share;
-    for (var both = s > 0.0; both; both = false) {
+    if s > 0.0 {
         let b = weather_of(clouds.weather[1], second_weather, along_m);
         a = Weather(mix(a.coverage, b.coverage, s), mix(a.cloud_type, b.cloud_type, s), mix(a.rain, b.rain, s), mix(a.height, b.height, s), mix(a.high, b.high, s), mix(a.spread, b.spread, s));
     }
@@ -255,7 +261,7 @@ fn layer_density(layer: CloudLayer, weather: Weather, along_m: vec2f, altitude_m
     let wanted = profile(layer, weather, strength, clamp(h, 0.0, 1.0));
     var density = 0.0;
     var bulk = 0.0;
-    for (var there = h > 0.0 && h < 1.0 && strength * wanted > 0.0; there; there = false) {
+    if h > 0.0 && h < 1.0 && strength * wanted > 0.0 {
         let place = vec3f(along_m + clouds.shear_m * h, altitude_m);
         let noise = textureSampleLevel(shape_volume, linear_repeat, place * clouds.base_inverse_scale_per_m - clouds.base_drift, 0.0);
         let fbm = dot(noise.gba, vec3f(0.625, 0.25, 0.125));
@@ -270,7 +276,7 @@ fn layer_density(layer: CloudLayer, weather: Weather, along_m: vec2f, altitude_m
         density = clamp((low * wanted - 1.0 + cover) / max(cover, 1e-3), 0.0, 1.0) * cover;
         bulk = density;
         if fine {
-            for (var eroded = density > 0.0 && density < BITE * clouds.erosion + 0.3; eroded; eroded = false) {
+            if density > 0.0 && density < BITE * clouds.erosion + 0.3 {
                 var at = place;
                 if clouds.curl_m > 0.0 {
                     let curl = textureSampleLevel(curl_texture, linear_repeat, place.xy * clouds.curl_inverse_scale_per_m, 0.0).rgb;

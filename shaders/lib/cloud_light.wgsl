@@ -83,11 +83,11 @@ fn lit_source(lobes: Lobes, before: f32, behind: f32, leak: f32) -> vec3f {
     // Of the forward light, what the lobes left out is even.
     sum += max(forward - passed, 0.0) / (4.0 * PI);
     var diffuse = 0.0;
-    for (var slab = leak <= 0.0; slab; slab = false) {
+    if leak <= 0.0 {
         let c1 = (5.0 - exp(-whole)) / (4.0 + 3.0 * whole);
         diffuse = max(5.0 - 2.0 * c1 - 3.0 * c1 * near - 3.0 * forward, 0.0);
     }
-    for (var heap = leak > 0.0; heap; heap = false) {
+    if leak > 0.0 {
         diffuse = leaking(near, whole, forward, leak);
     }
     // Powder: at a sunlit rim there is little behind that could send light back (Schneider 2015). The slab knows that;

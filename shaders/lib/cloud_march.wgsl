@@ -54,7 +54,7 @@ fn march_band(index: u32, ray: CloudRay, start_m: f32, stop_m: f32) {
         let share_seen = left * pending.x;
         let spread = !within || t - begun_m > SPREAD * max(least_m, growth * t);
         let apart = share_seen >= NODE_SHARE || (share_seen > LEAST_APART && spread);
-        for (var due = pending.x > 0.0 && (ends || apart); due; due = false) {
+        if pending.x > 0.0 && (ends || apart) {
             note(pending.x, pending.y / pending.x, index, pending.z / pending.x);
             pending = vec3f(0.0);
         }
@@ -142,8 +142,8 @@ fn next_after(ray: CloudRay, t: f32) -> Next {
     let h = view.altitude_m;
     for (var i = 0u; i < one_or(clouds.band_count); i++) {
         let band = band_at(i);
-        let outer = shell_stretch(clouds.radius_m + band.top_m, h - band.top_m, ray.mu, ray.end_m);
-        let inner = shell_stretch(clouds.radius_m + band.base_m, h - band.base_m, ray.mu, ray.end_m);
+        let outer = shell_stretch(clouds.radius_m + band.top_m, h - band.top_m, ray.mu, ray.stop_m);
+        let inner = shell_stretch(clouds.radius_m + band.base_m, h - band.base_m, ray.mu, ray.stop_m);
         let hollow = inner.x < inner.y;
         best = nearer(best, i, outer.x, select(outer.y, inner.x, hollow), t);
         if hollow {
@@ -154,10 +154,10 @@ fn next_after(ray: CloudRay, t: f32) -> Next {
         let height_m = clouds.sheets[i].height_m;
         let inside = shell_stretch(clouds.radius_m + height_m, h - height_m, ray.mu, FARTHEST_M * 100.0);
         if inside.x < inside.y {
-            if inside.x > 0.0 && inside.x < ray.end_m {
+            if inside.x > 0.0 && inside.x < ray.stop_m {
                 best = nearer(best, FIRST_SHEET + i, inside.x, inside.x + 1.0, t);
             }
-            if inside.y < ray.end_m {
+            if inside.y < ray.stop_m {
                 best = nearer(best, FIRST_SHEET + i, inside.y, inside.y + 1.0, t);
             }
         }

@@ -1,7 +1,7 @@
 // A ray through the clouds. Whoever imports from here binds what `lib/cloud.wgsl` names, and then this.
 import package::lib::air::Air;
-import package::lib::cloud::clouds;
-import package::lib::geometry::{angle_of_cosine, distance_to_sphere};
+import package::lib::cloud::{clouds, lowest_cloud_m};
+import package::lib::geometry::{angle_of_cosine, distance_to_sphere, edge_cosine, over_horizon};
 import package::lib::light::View;
 import package::lib::source::cosine_of_azimuth;
 import package::lib::view_ray::{Observer, enter_air};
@@ -20,6 +20,8 @@ struct CloudRay {
     ground: bool,
     // To the ground, or farther than anything.
     end_m: f32,
+    // To what stands on it, or as far as that.
+    stop_m: f32,
     // The stretch in the air.
     air_from_m: f32,
     air_length_m: f32,
@@ -43,9 +45,15 @@ fn cloud_ray(observer: Observer, direction: vec3f, jitter: f32, spread: f32) -> 
     let azimuth = angle_of_cosine(cosine_of_azimuth(mu, view.mu_s, nu));
     let to_top_m = distance_to_sphere(air.radius_m + air.top_m, view.altitude_m - air.top_m, mu);
     let from_m = select(0.0, to_top_m, view.altitude_m > air.top_m);
-    return CloudRay(direction, mu, nu, azimuth, angle_of_cosine(mu), ground, end_m, from_m, max(entry.length_m, 0.0), jitter, spread);
+    return CloudRay(direction, mu, nu, azimuth, angle_of_cosine(mu), ground, end_m, end_m, from_m, max(entry.length_m, 0.0), jitter, spread);
 }
 
 fn place_at(t: f32, direction: vec3f) -> vec3f {
     return clouds.place_m + t * direction;
+}
+
+// Where a pixel's ray looks for clouds: from under them, a pixel that the horizon crosses looks into the sky.
+fn sight_of_clouds(direction: vec3f, pixel_angle: f32) -> vec3f {
+    let reach = select(0.0, 0.5 * pixel_angle, view.altitude_m < lowest_cloud_m());
+    return over_horizon(direction, view.up, edge_cosine(air.radius_m, view.altitude_m), reach);
 }

@@ -23,23 +23,23 @@ fn clouds_seen(ray: CloudRay, nodes: Nodes) -> vec4f {
             four = nodes.second;
         }
         let k = n % 4u;
-        for (var there = four.share[k] > 0.0; there; there = false) {
+        if four.share[k] > 0.0 {
             let distance_m = four.distance_m[k];
             let p = place_at(distance_m, ray.direction);
             let altitude_m = altitude_after(clouds.radius_m, view.altitude_m, ray.mu, distance_m);
             let index = u32(four.kind[k]);
             let part = fract(four.kind[k]);
             let extinction = part / (1.0 - part);
-            for (var anew = around_m < 0.0 || abs(distance_m - around_m) > NEAR * distance_m; anew; anew = false) {
+            if around_m < 0.0 || abs(distance_m - around_m) > NEAR * distance_m {
                 around = surroundings(p, altitude_m);
                 before = air_before(ray, distance_m);
                 around_m = distance_m;
             }
             var source = vec3f(0.0);
-            for (var band = index < FIRST_SHEET; band; band = false) {
+            if index < FIRST_SHEET {
                 source = source_at(index, p, altitude_m, extinction, around, lobes);
             }
-            for (var sheet = index >= FIRST_SHEET; sheet; sheet = false) {
+            if index >= FIRST_SHEET {
                 let sheet = clouds.sheets[index - FIRST_SHEET];
                 source = sheet_source(index - FIRST_SHEET, p, sheet_optical_depth(sheet, p, sheet.height_m), lobes);
             }

@@ -86,7 +86,10 @@ fn light_depth_within(
     let l = clamp((share - lower_before) / (LOWER_SHARES - lower_before), vec4f(0.0), vec4f(1.0));
     let over = dot(u, upper - vec4f(0.0, upper.xyz)) + dot(l, lower - vec4f(upper.w, lower.xyz));
     let under = lower.w - over;
-    return LightDepth(select(under, over, mu >= 0.0), select(over, under, mu >= 0.0));
+    // Light that runs level in a place comes from above on the near side and from below on the far one: the sphere falls
+    // away, by a band's thickness or so where it runs at the least cosine.
+    let from_above = smoothstep(-LEAST_COSINE, LEAST_COSINE, mu);
+    return LightDepth(mix(under, over, from_above), mix(over, under, from_above));
 }
 
 // Optical depth towards the light of all bands over a place. `mu` is the light's cosine with the zenith there.
@@ -103,8 +106,7 @@ fn shade_depth(
     var sum = 0.0;
     for (var i = 0u; i < shade.count; i++) {
         let middle_m = shade.middles_m[i / 4u][i % 4u];
-        // A loop of one round at most: a software device runs what an `if` leaves out.
-        for (var over = middle_m > altitude_m; over; over = false) {
+        if middle_m > altitude_m {
             let way_m = distance_to_top(radius_m, middle_m, altitude_m, mu);
             let at = shade_coordinate(shade, along_sphere(radius_m, p + way_m * light, middle_m));
             sum += depth_from_map(textureSampleLevel(maps, linear_clamp, at, 2u * i + 1u, 0.0)).a;

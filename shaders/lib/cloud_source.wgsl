@@ -81,17 +81,21 @@ const ALL_LIGHT_STEPS = 64u;
 // With fewer, over this share of the shape noise's scale. Within it density changes faster than the maps can hold, which
 // stand in texels and at eight heights.
 const REACH = 0.5;
+// A preview reads the maps alone while the sun is high. Under a low one light runs many kilometres from one of their heights
+// to the next, and these would stand as stripes on the clouds: from the second cosine down it is followed, over a way that
+// grows until the first.
+const LOW_LIGHT = vec2f(0.05, 0.25);
+const LOW_LIGHT_STEPS = 3u;
 
 // Optical depth of a band from a place towards the light (`side` 1) or away from it (-1): followed close to the place,
-// and beyond as it stands in the maps of shadows.
-fn depth_beside(index: u32, band: CloudBand, p: vec3f, altitude_m: f32, mu_s: f32, side: f32) -> f32 {
+// and beyond as it stands in the maps of shadows. `close_m` is how far the steps go at most.
+fn depth_beside(index: u32, band: CloudBand, p: vec3f, altitude_m: f32, mu_s: f32, side: f32, steps: u32, close_m: f32) -> f32 {
     let towards = side * view.sun;
     let cosine = side * light_cosine(mu_s);
     let out_m = select(altitude_m - band.base_m, band.top_m - altitude_m, cosine > 0.0) / abs(cosine);
-    let all = clouds.light_steps >= ALL_LIGHT_STEPS;
-    let reach_m = min(out_m, select(REACH / clouds.base_inverse_scale_per_m, out_m, all));
-    var depth = depth_within(band, p, altitude_m, towards, side * mu_s, clouds.light_steps, reach_m);
-    for (var beyond = reach_m < out_m; beyond; beyond = false) {
+    let reach_m = min(out_m, select(close_m, out_m, steps >= ALL_LIGHT_STEPS));
+    var depth = depth_within(band, p, altitude_m, towards, side * mu_s, steps, reach_m);
+    if reach_m < out_m {
         let there_m = altitude_after(clouds.radius_m, altitude_m, side * mu_s, reach_m);
         let there = light_depth(index, band, p + reach_m * towards, there_m, mu_s);
         depth += select(there.behind, there.before, side > 0.0);
@@ -99,24 +103,30 @@ fn depth_beside(index: u32, band: CloudBand, p: vec3f, altitude_m: f32, mu_s: f3
     return depth;
 }
 
-// Source function of a place in a band, W/m²/sr. With no steps on the light's way its optical depth is that of the maps.
+// Source function of a place in a band, W/m²/sr.
 fn source_at(index: u32, p: vec3f, altitude_m: f32, extinction_per_m: f32, around: Surroundings, lobes: Lobes) -> vec3f {
     let band = band_at(index);
     let mu_s = around.mu_s;
     let thickness = band.top_m - band.base_m;
     var way: LightDepth;
-    for (var far = clouds.light_steps == 0u; far; far = false) {
+    let low = 1.0 - smoothstep(LOW_LIGHT.x, LOW_LIGHT.y, abs(mu_s));
+    let preview = clouds.light_steps == 0u;
+    let steps = select(clouds.light_steps, LOW_LIGHT_STEPS, preview && low > 0.0);
+    if steps == 0u {
         way = light_depth(index, band, p, altitude_m, mu_s);
-    }
-    for (var close = clouds.light_steps > 0u; close; close = false) {
-        way.before = depth_beside(index, band, p, altitude_m, mu_s, 1.0);
-        way.behind = depth_beside(index, band, p, altitude_m, mu_s, -1.0);
+    } else {
+        let close_m = select(1.0, low, preview) * REACH / clouds.base_inverse_scale_per_m;
+        way.before = depth_beside(index, band, p, altitude_m, mu_s, 1.0, steps, close_m);
+        way.behind = depth_beside(index, band, p, altitude_m, mu_s, -1.0, steps, close_m);
     }
     let over = shade_depth(shade, shade_maps, linear_clamp, clouds.radius_m, p, band.top_m, view.sun, mu_s);
     let h = clamp((altitude_m - band.base_m) / thickness, 0.0, 1.0);
-    // Even light comes by the shortest way out, not straight up: a share of the thickness on either side.
-    let up = 0.5 * extinction_per_m * (1.0 - h) * thickness;
-    let down = 0.5 * extinction_per_m * h * thickness;
+    // Into a heap even light comes by the shortest way, not straight down: a share of the thickness on either side. Into a
+    // deck there is no other way than the light's own, less its slant.
+    let heap = 0.5 * extinction_per_m * thickness * vec2f(1.0 - h, h);
+    let deck = abs(light_cosine(mu_s)) * select(vec2f(way.behind, way.before), vec2f(way.before, way.behind), mu_s >= 0.0);
+    let up = mix(deck.x, heap.x, band.leak);
+    let down = mix(deck.y, heap.y, band.leak);
     let direct = around.sun * exp(-over) * lit_source(lobes, way.before, way.behind, band.leak);
     return clouds.albedo * (direct + around.above * ambient_source(up, down) + around.below * ambient_source(down, up));
 }
@@ -143,6 +153,6 @@ fn unlit_air(ray: CloudRay) -> vec3f {
         return vec3f(0.0);
     }
     let up_m = distance_to_top(clouds.radius_m, shade.base_m, view.altitude_m, ray.mu);
-    let under = air_before(ray, min(up_m, ray.end_m));
+    let under = air_before(ray, min(up_m, ray.stop_m));
     return (1.0 - shade.direct_left) * under.single + (1.0 - shade.diffuse_left) * under.multiple;
 }

@@ -1,6 +1,6 @@
 // Where the sky runs evenly, so that pixels can share what is found at a few places.
 import package::lib::camera::{Sight, sight_at};
-import package::lib::geometry::{angle_if_near, edge_zenith_angle};
+import package::lib::geometry::{angle_if_near, edge_cosine};
 import package::lib::sky_light::{CLOUDS, MOON, PROJECTION, air, camera, moon, view};
 import package::lib::tables::least_zenith_angle;
 
@@ -16,7 +16,7 @@ fn is_even_run(mu_first: f32, mu_last: f32, length: f32) -> bool {
         // Nothing but space.
         return true;
     }
-    let horizon_mu = cos(edge_zenith_angle(air.radius_m, view.altitude_m));
+    let horizon_mu = edge_cosine(air.radius_m, view.altitude_m);
     let near = min(abs(mu_first - horizon_mu), abs(mu_last - horizon_mu));
     let one_side = (mu_first < horizon_mu) == (mu_last < horizon_mu);
     if CLOUDS && mu_first < horizon_mu {
@@ -59,7 +59,7 @@ fn cell_evenness(place: vec2f, size: vec2f, veil: bool, glaring: vec3f) -> f32 {
     let mu = vec4f(dot(a.direction, view.up), dot(b.direction, view.up), dot(c.direction, view.up), dot(d.direction, view.up));
     let least = min(min(mu.x, mu.y), min(mu.z, mu.w));
     let most = max(max(mu.x, mu.y), max(mu.z, mu.w));
-    let horizon_mu = cos(edge_zenith_angle(air.radius_m, view.altitude_m));
+    let horizon_mu = edge_cosine(air.radius_m, view.altitude_m);
     let near = select(least - horizon_mu, horizon_mu - most, most < horizon_mu);
     var runs = near > 2.0 * camera.pixel_angle && most - least < CELL_SHARE * near && across < CELL_ANGLES * EVEN_ANGLE;
     // Seen from above, the air over the limb does not run evenly, and space over it does.

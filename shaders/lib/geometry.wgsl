@@ -69,6 +69,20 @@ fn edge_zenith_angle(radius_m: f32, altitude_m: f32) -> f32 {
     return 0.5 * PI + atan(sqrt(horizon_distance_squared(radius_m, altitude_m)) / radius_m);
 }
 
+// Its cosine: of π/2 + atan(d/R) with d² = h(2R+h), so that R² + d² = (R+h)².
+fn edge_cosine(radius_m: f32, altitude_m: f32) -> f32 {
+    return -sqrt(horizon_distance_squared(radius_m, altitude_m)) / (radius_m + altitude_m);
+}
+
+// Over the horizon by so little, a ray no longer meets the ground.
+const LIFTED = 1e-5;
+
+// A direction under the horizon by less than `reach`, in cosines with `up`, looks just over it instead.
+fn over_horizon(direction: vec3f, up: vec3f, horizon: f32, reach: f32) -> vec3f {
+    let under = horizon - dot(direction, up);
+    return normalize(direction + select(0.0, under + LIFTED, under > -LIFTED && under < reach) * up);
+}
+
 // From its cosine: within 3e-4 at 0 and π, where the cosine is flat, and exact between. Mesa's acos is off by 1e-4.
 fn angle_of_cosine(c: f32) -> f32 {
     return atan2(sqrt(max((1.0 - c) * (1.0 + c), 0.0)), c);

@@ -3,7 +3,7 @@ import package::lib::airglow::{Airglow, airglow_radiance};
 import package::lib::air::Air;
 import package::lib::camera::{Camera, sight_at};
 import package::lib::geometry::{
-    PI, angle_if_near, angle_of_cosine, distance_to_sphere, edge_zenith_angle, horizon_distance_squared,
+    PI, angle_if_near, angle_of_cosine, distance_to_sphere, edge_cosine, edge_zenith_angle, horizon_distance_squared,
 };
 import package::lib::phase::{cornette_shanks_phase, rayleigh_phase};
 import package::lib::cloud_shade::{CloudShade, ground_shaded};
@@ -178,12 +178,17 @@ struct Light {
     left: vec3f,
 }
 
+// Share of a pixel that is above the horizon.
+fn share_above(zenith_angle: f32) -> f32 {
+    return clamp(0.5 + (edge_zenith_angle(air.radius_m, view.altitude_m) - zenith_angle) / camera.pixel_angle, 0.0, 1.0);
+}
+
 fn light_towards(direction: vec3f, mu: f32, nu: f32) -> Light {
     let zenith_angle = angle_of_cosine(mu);
     let azimuth = azimuth_from(view, mu, nu);
     let horizon = edge_zenith_angle(air.radius_m, view.altitude_m);
-    // Share of the pixel above the horizon, for an even edge.
-    let above = clamp(0.5 + (horizon - zenith_angle) / camera.pixel_angle, 0.0, 1.0);
+    // For an even edge.
+    let above = share_above(zenith_angle);
     let met_m = distance_to_sphere(air.radius_m, view.altitude_m, mu);
     let edge_m = sqrt(horizon_distance_squared(air.radius_m, view.altitude_m));
     // One side of the horizon, and where the pixel lies on it the other as well: a loop, since a software device runs
@@ -194,7 +199,7 @@ fn light_towards(direction: vec3f, mu: f32, nu: f32) -> Light {
         let share = select(above, 1.0 - above, ground);
         // A ray that belongs to the other side is turned to the horizon.
         let turned = ground != (met_m >= 0.0);
-        let ray_mu = select(mu, cos(horizon), turned);
+        let ray_mu = select(mu, edge_cosine(air.radius_m, view.altitude_m), turned);
         let ray_angle = select(min(zenith_angle, horizon), zenith_angle, ground);
         let distance_m = select(select(met_m, edge_m, turned), ENDLESS_M, !ground);
         var light: Scattered;

@@ -2,7 +2,8 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { pressureOf, scaleBar } from '../../web/src/paint/board.js';
-import { assetName, extentOf, observerOn, shownBy, shownName, viewCone } from '../../web/src/paint/place.js';
+import { assetName } from '../../web/src/assets.js';
+import { extentOf, observerOn, shownBy, shownName, viewCone } from '../../web/src/paint/place.js';
 import { createPublisher } from '../../web/src/paint/publisher.js';
 import { createRaster, createStroke, SIDE, tint } from '../../web/src/paint/raster.js';
 
@@ -134,7 +135,7 @@ test('what is painted acts: the map is the scene’s, and what would hide it giv
 });
 
 test('files get names that the server takes', () => {
-  assert.deepEqual(['Front No. 3.PNG', 'ü.png', '__x-y.png', `${'a'.repeat(99)}.png`].map(assetName), ['front-no-3', 'map', 'x-y', 'a'.repeat(60)]);
+  assert.deepEqual(['Front No. 3.PNG', 'ü.png', '__x-y.png', `${'a'.repeat(99)}.png`].map((name) => assetName(name, 'map')), ['front-no-3', 'map', 'x-y', 'a'.repeat(60)]);
 });
 
 test('a pen presses, a mouse does not', () => {

@@ -269,7 +269,7 @@ test('the map shows its extent, the observer and where the camera looks', () =>
       const wedge = () => page.locator('#map-view').getAttribute('d');
       const north = await wedge();
       await page.locator('#sky').focus();
-      await page.keyboard.press('d');
+      await page.keyboard.press('e');
       await page.waitForFunction((old) => document.getElementById('map-view')?.getAttribute('d') !== old, north);
     },
     { hash: HASH, viewport: STRIP },

@@ -188,10 +188,12 @@ test('help, panel and everything else are shown and hidden by keys', () =>
     assert.match((await page.locator('#help .keys').textContent()) ?? '', /Move the sun/);
     await page.keyboard.press('Escape');
     await page.locator('#help').waitFor({ state: 'hidden' });
-    await page.keyboard.press('p');
+    await page.keyboard.press('i');
     await page.locator('#panel').waitFor({ state: 'hidden' });
-    await page.keyboard.press('h');
+    await page.keyboard.press('v');
+    await page.locator('#hud[open]').waitFor();
+    await page.keyboard.press('b');
     await page.locator('#hud').waitFor({ state: 'hidden' });
-    await page.keyboard.press('h');
+    await page.keyboard.press('b');
     await page.locator('#hud').waitFor({ state: 'visible' });
   }));

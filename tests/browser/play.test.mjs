@@ -67,7 +67,7 @@ test('it is played, followed by the page, paused, and left by whoever changes th
     }
     assert.ok(seen[5] < seen[0] && new Set(seen).size >= 4, `the sun goes down: ${seen}`);
     await page.locator('#sky').focus();
-    await page.keyboard.press('Space');
+    await page.keyboard.press('k');
     assert.equal(await page.locator('#timeline-play').getAttribute('aria-label'), 'Play');
     await page.waitForSelector('body[data-state="final"]');
     const asked = sent(page).length;

@@ -119,17 +119,18 @@ test('the wheel zooms', () =>
     assert.ok(fov > 30 && fov < 45, `60 degrees became ${fov}`);
   }));
 
-test('keys move the sun, look around and zoom', () =>
+test('keys move the sun and zoom', () =>
   open(async (page) => {
     await changing(page, () => page.keyboard.press('ArrowRight'));
     await changing(page, () => page.keyboard.press('ArrowUp'));
     assert.deepEqual(await sunAngles(page), { azimuth: 181, elevation: 36 });
     await changing(page, () => page.keyboard.press('Shift+ArrowLeft'));
     assert.deepEqual(await sunAngles(page), { azimuth: 180.9, elevation: 36 });
-    await changing(page, () => page.keyboard.press('d'));
-    assert.deepEqual(await cameraAngles(page), { azimuth: 183, elevation: 10 });
-    await changing(page, () => page.keyboard.press('+'));
-    assert.ok((await numberAt(page, '/camera/projection/vertical_fov_deg')) < 60);
+    await changing(page, () => page.keyboard.press('PageUp'));
+    const fov = await numberAt(page, '/camera/projection/vertical_fov_deg');
+    assert.ok(fov < 60);
+    await changing(page, () => page.keyboard.press('PageDown'));
+    assert.ok((await numberAt(page, '/camera/projection/vertical_fov_deg')) > fov);
   }));
 
 test('one finger drags the sun, two look and pinch', () =>

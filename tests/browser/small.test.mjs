@@ -39,6 +39,13 @@ test('angles are linear, and a range too wide round zero has no slider', () => {
   assert.equal(scale({ minimum: 0, initial: 0 }), null);
 });
 
+test('a slider of powers of two stops at them', () => {
+  const s = scale({ minimum: 512, maximum: 8192, initial: 2048, integer: true, description: 'Side of the picture, pixels: a power of two.' });
+  assert.ok(s && s.step === 1);
+  assert.deepEqual([0, 0.3, 0.5, 0.7, 1].map(s.value), [512, 1024, 2048, 4096, 8192]);
+  assert.equal(s.position(4096), 0.75);
+});
+
 test('whole numbers stay whole on a logarithmic slider', () => {
   const s = scale({ minimum: 4, maximum: 256, integer: true });
   assert.ok(s && s.step === 1);
@@ -96,7 +103,7 @@ test('the lit part of the moon has the area that its fraction says', () => {
 });
 
 test('parts that are switched on begin with what makes sense', () => {
-  const known = { sun: () => ({ azimuth_deg: 200, elevation_deg: -9 }), moon: () => null };
+  const known = { sun: () => ({ azimuth_deg: 200, elevation_deg: -9 }), moon: () => null, heightfields: () => ['alps'] };
   const node = /** @type {any} */ (root.properties).find((/** @type {any} */ p) => p.key === 'steps').node;
   const haze = { visibility_m: 2000, extinction_per_m: null };
   const byExtinction = turnedOn({ haze }, '/haze/extinction_per_m', node, known).haze;
@@ -108,6 +115,7 @@ test('parts that are switched on begin with what makes sense', () => {
   const withMoon = { ...known, moon: () => told };
   assert.deepEqual(turnedOn({ moon: {} }, '/moon/position', node, withMoon).moon.position, { azimuth_deg: 120, elevation_deg: 7 });
   assert.equal(turnedOn({ moon: {} }, '/moon/phase_angle_deg', node, withMoon).moon.phase_angle_deg, 33);
+  assert.deepEqual(turnedOn({ terrain: { name: null, mountains: { seed: 3 } } }, '/terrain/name', node, known).terrain, { name: 'alps', mountains: null }, 'heights are a file’s or made');
   assert.equal(turnedOn({ steps: null }, '/steps', node, known).steps, 4, 'the least, where nothing is known');
 });
 
@@ -157,11 +165,13 @@ test('a command quotes what a shell would read', () => {
   assert.ok(text.includes(`it'\\''s`));
 });
 
-test('a part that changes its shape keeps what it says', () => {
-  const known = { sun: () => ({ azimuth_deg: 90, elevation_deg: 0 }), ev: () => 12.34, timeAndPlace: () => ({ time: 'now' }), mapName: async () => 'front' };
+test('a part that changes its shape keeps what it says', async () => {
+  const known = { sun: () => ({ azimuth_deg: 90, elevation_deg: 0 }), ev: () => 12.34, timeAndPlace: () => ({ time: 'now' }), mapName: async () => 'front', meshName: async () => 'town', mountains: () => ({ kind: 'heightfield', mountains: { seed: 1 } }) };
   assert.deepEqual(carryOver({ azimuth_deg: 90, elevation_deg: 0 }, [0, 0, 0], known), [1, 0, 0]);
   assert.deepEqual(carryOver({ time: 'x' }, { azimuth_deg: 0, elevation_deg: 0 }, known), { azimuth_deg: 90, elevation_deg: 0 });
   assert.deepEqual(carryOver({ kind: 'auto' }, { kind: 'ev', ev: 0 }, known), { kind: 'ev', ev: 12.3 });
   assert.deepEqual(carryOver({}, { time: '' }, known), { time: 'now' });
+  assert.deepEqual(await carryOver({ kind: 'heightfield' }, { kind: 'mesh', name: '', scale: 1 }, known), { kind: 'mesh', name: 'town', scale: 1 });
+  assert.deepEqual(carryOver({ kind: 'mesh' }, { kind: 'heightfield', mountains: null }, known), { kind: 'heightfield', mountains: { seed: 1 } });
   assert.deepEqual(carryOver({ kind: 'auto' }, { kind: 'pupil', gain: 17 }, known), { kind: 'pupil', gain: 17 });
 });

@@ -26,6 +26,9 @@ async function post(path, body, signal) {
 /** @param {any} request @param {AbortSignal} signal @returns {Promise<Blob>} */
 export const postFrame = async (request, signal) => (await post('v1/frames', request, signal)).blob();
 
+/** The numbers behind the picture. @param {any} request @returns {Promise<any>} */
+export const postProbe = async (request) => (await post('v1/probe', request)).json();
+
 /** The scene that a weather report tells. @param {{metar: string, date: string | null}} report @returns {Promise<any>} */
 export const postReport = async (report) => (await post('v1/scenes/from-metar', report)).json();
 
@@ -36,26 +39,28 @@ export async function stopJob(id) {
 }
 
 const MAPS = 'v1/assets/weather-maps';
+const ASSETS = 'v1/assets';
 
-/** @typedef {{name: string, bytes: number, sha256: string, width_px: number, height_px: number}} Asset */
+/** @typedef {import('./assets.js').Kind} Kind */
+/** @typedef {{name: string, bytes: number, sha256: string}} Asset */
 
-/** The weather maps that the server keeps. @returns {Promise<Asset[]>} */
-export const listMaps = async () => (await getJson(MAPS)).assets;
+/** What the server keeps of a kind. @param {Kind} kind @returns {Promise<Asset[]>} */
+export const listAssets = async (kind) => (await getJson(`${ASSETS}/${kind}`)).assets;
 
-/** @param {string} name @returns {Promise<Blob>} */
-export async function getMap(name) {
-  const response = await fetch(`${MAPS}/${name}`);
+/** @param {Kind} kind @param {string} name @returns {Promise<Blob>} */
+export async function getAsset(kind, name) {
+  const response = await fetch(`${ASSETS}/${kind}/${name}`);
   if (!response.ok) throw await failure(response);
   return response.blob();
 }
 
 /**
- * Stores a weather map. Where `isNew`, one that has the name stays, and the error's problem has the status 412.
- * @param {string} name @param {Blob} file @param {{isNew?: boolean}} [options] @returns {Promise<Asset>}
+ * Stores a file. Where `isNew`, one that has the name stays, and the error's problem has the status 412.
+ * @param {Kind} kind @param {string} name @param {Blob} file @param {{isNew?: boolean}} [options] @returns {Promise<Asset>}
  */
-export async function putMap(name, file, { isNew = false } = {}) {
-  const headers = { 'content-type': 'image/png', ...(isNew ? { 'if-none-match': '*' } : {}) };
-  const response = await fetch(`${MAPS}/${name}`, { method: 'PUT', headers, body: file });
+export async function putAsset(kind, name, file, { isNew = false } = {}) {
+  const headers = { 'content-type': file.type || 'application/octet-stream', ...(isNew ? { 'if-none-match': '*' } : {}) };
+  const response = await fetch(`${ASSETS}/${kind}/${name}`, { method: 'PUT', headers, body: file });
   if (!response.ok) throw await failure(response);
   return response.json();
 }

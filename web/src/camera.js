@@ -1,11 +1,14 @@
-/** Turning the camera and changing its field of view. */
+/** Placing and turning the camera, and changing its field of view. */
+import { altitudeAt, readPose, turned, upAt, writePose } from './fly/pose.js';
+import { equal } from './json.js';
 import { createView } from './view.js';
-import { angleBetween, clamp, directionAngles, wrap360 } from './vector.js';
+import { angleBetween, clamp, dot } from './vector.js';
 
-const DIRECTION = '/camera/direction';
 const RAD = Math.PI / 180;
 /** Wide enough for any view, and short of what each projection can show. @type {Record<string, [string, number, number]>} */
 const FIELDS = { perspective: ['vertical_fov_deg', 0.5, 140], fisheye: ['fov_deg', 5, 300] };
+/** What a projection without a field of its own shows, degrees. */
+const WHOLE_DEG = 180;
 
 /** @param {import('./store.js').Store} store @param {import('./stage.js').Stage} stage */
 export function createCamera(store, stage) {
@@ -14,6 +17,18 @@ export function createCamera(store, stage) {
     const { width, height } = stage.box();
     return createView(store.scene.camera, width, height);
   };
+  const radius = () => store.scene.planet.radius_m;
+  /** Not rounded, so that small steps add up; true while the scene holds what was written of it. @type {{pose: import('./fly/pose.js').Pose, written: any} | null} */
+  let exact = null;
+  const pose = () => {
+    const { position_m, direction, roll_deg } = store.scene.camera;
+    return exact && equal(exact.written, { position_m, direction, roll_deg }) ? exact.pose : readPose(store.scene.camera, radius());
+  };
+  /** @param {import('./fly/pose.js').Pose} next */
+  const place = (next) => {
+    exact = { pose: next, written: writePose(next, radius()) };
+    store.set('/camera', { ...store.scene.camera, ...exact.written });
+  };
   /** Degrees that one pixel spans in the middle of the picture. */
   const degreesPerPixel = () => {
     const { width, height } = stage.box();
@@ -21,26 +36,29 @@ export function createCamera(store, stage) {
     const middle = { x: width / 2, y: height / 2 };
     return angleBetween(unproject(middle), unproject({ x: middle.x, y: middle.y + 1 }));
   };
-  /** @param {number} azimuth @param {number} elevation Steps, degrees */
-  const turn = (azimuth, elevation) => {
-    if (!view().free) return;
-    const { azimuth_deg, elevation_deg } = directionAngles(store.get(DIRECTION));
-    store.set(DIRECTION, {
-      azimuth_deg: Math.round(wrap360(azimuth_deg + azimuth) * 1e4) / 1e4,
-      elevation_deg: Math.round(clamp(elevation_deg + elevation, -90, 90) * 1e4) / 1e4,
-    });
-  };
+  const altitude = () => altitudeAt(store.scene.camera.position_m, radius());
   return {
     view,
-    turn,
+    pose,
+    place,
+    radius,
+    altitude,
+    /** True where turning the camera acts on the picture. */
+    isFree: () => view().free,
+    fieldDeg() {
+      const { projection } = store.scene.camera;
+      const field = FIELDS[projection.kind];
+      return field ? projection[field[0]] : WHOLE_DEG;
+    },
     /** The picture follows the hand. @param {number} dx @param {number} dy Pixels on the screen */
     drag(dx, dy) {
+      if (!view().free) return;
       const step = degreesPerPixel();
-      const roll = store.scene.camera.roll_deg * RAD;
+      const from = pose();
+      const roll = from.roll_deg * RAD;
       const [right, down] = [dx * Math.cos(roll) + dy * Math.sin(roll), dy * Math.cos(roll) - dx * Math.sin(roll)];
-      const { elevation_deg } = directionAngles(store.get(DIRECTION));
       // Meridians draw together towards the zenith; a floor keeps the camera from spinning there.
-      turn((-right * step) / Math.max(Math.cos(elevation_deg * RAD), 0.2), down * step);
+      place(turned(from, radius(), (-right * step) / Math.max(Math.cos(from.pitch_deg * RAD), 0.2), down * step));
     },
     /** @param {number} factor Above 1 shows more */
     zoom(factor) {
@@ -51,13 +69,10 @@ export function createCamera(store, stage) {
       const next = clamp(projection[name] * factor, least, most);
       store.set(`/camera/projection/${name}`, Number(next.toPrecision(5)));
     },
-    /** Elevation of the horizon: below 0 as the observer rises. */
-    horizonDeg() {
-      const { radius_m } = store.scene.planet;
-      const [x, y, z] = store.scene.camera.position_m;
-      const distance = Math.hypot(x, y, z + radius_m);
-      return -Math.acos(clamp(radius_m / distance, 0, 1)) / RAD;
-    },
+    /** Angle of a direction over the plane that is level at the camera. @param {import('./vector.js').Vec3} direction A unit vector */
+    elevationDeg: (direction) => Math.asin(clamp(dot(direction, upAt(store.scene.camera.position_m, radius())), -1, 1)) / RAD,
+    /** Of the horizon: below 0 as the observer rises. */
+    horizonDeg: () => -Math.acos(clamp(radius() / (radius() + altitude()), 0, 1)) / RAD,
   };
 }
 

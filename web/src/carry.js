@@ -11,6 +11,8 @@ const SUNNY_EV = 15;
  * @param {() => number | null} known.ev What the last picture was exposed with
  * @param {() => any} known.timeAndPlace
  * @param {() => string | Promise<string>} known.mapName A weather map that the server has
+ * @param {() => Promise<string>} known.meshName A mesh that the server has
+ * @param {() => any} known.mountains Mountains from a seed
  * @returns {any} A promise where the server must be asked
  */
 export function carryOver(value, fresh, known) {
@@ -18,6 +20,8 @@ export function carryOver(value, fresh, known) {
   if (isObject(fresh) && fresh.kind === 'ev') return { ...fresh, ev: Math.round((known.ev() ?? SUNNY_EV) * 10) / 10 };
   if (isObject(value) && isObject(fresh) && 'extent_m' in value && 'extent_m' in fresh) fresh = { ...fresh, extent_m: value.extent_m };
   if (isObject(fresh) && fresh.kind === 'asset') return Promise.resolve(known.mapName()).then((name) => ({ ...fresh, name }));
+  if (isObject(fresh) && fresh.kind === 'mesh') return known.meshName().then((name) => ({ ...fresh, name }));
+  if (isObject(fresh) && fresh.kind === 'heightfield') return known.mountains();
   const isDirection = Array.isArray(fresh) || (isObject(fresh) && 'azimuth_deg' in fresh);
   if (!isDirection) return fresh;
   const angles = isObject(value) && 'time' in value ? known.sun() : directionAngles(value);

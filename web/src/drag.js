@@ -73,7 +73,7 @@ export function createDrags({ sun, moon, camera, stage }) {
       const toMoon = moon.isGiven() ? fromPointer(moon.direction()) : null;
       if (toMoon && reach(toMoon) < Math.min(GRAB_PX, reach(offset))) return carry(moon, toMoon);
       if (offset && reach(offset) < GRAB_PX) return carry(sun, offset);
-      if (toAngles(view.unproject(at)).elevation_deg < camera.horizonDeg() - GROUND_DEG) return look(from);
+      if (camera.elevationDeg(view.unproject(at)) < camera.horizonDeg() - GROUND_DEG) return look(from);
       const isWithin = (/** @type {number} */ v, /** @type {number} */ most) => v >= 0 && v <= most;
       const inView = offset && isWithin(at.x + offset.x, width) && isWithin(at.y + offset.y, height);
       return inView ? carry(sun, offset) : swing(from);

@@ -27,7 +27,8 @@ export function listenToGestures(surface, drags, camera) {
   const isLook = (/** @type {PointerEvent} */ e) => e.button !== 0 || e.shiftKey || e.altKey || e.ctrlKey || e.metaKey;
 
   surface.addEventListener('pointerdown', (event) => {
-    if (event.pointerType === 'mouse' && pointers.size > 0) return;
+    // A locked mouse has no place on the picture.
+    if (event.pointerType === 'mouse' && (pointers.size > 0 || document.pointerLockElement)) return;
     surface.setPointerCapture(event.pointerId);
     pointers.set(event.pointerId, place(event));
     if (pointers.size === 1) {

@@ -55,6 +55,8 @@ export function createHud() {
         ]),
       );
     },
+    /** Shows or hides the time of each pass. */
+    toggle: () => (hud.open = !hud.open),
     /** @param {{adapter: string, driver: string, backend: string}} device */
     device(device) {
       adapter.textContent = device.adapter;

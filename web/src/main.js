@@ -7,6 +7,7 @@ import { byId } from './dom.js';
 import { createDome } from './dome.js';
 import { createDrags } from './drag.js';
 import { createDrawers } from './drawers.js';
+import { createFlight } from './fly/flight.js';
 import { createGallery } from './gallery.js';
 import { listenToGestures } from './gestures.js';
 import { createHud } from './hud.js';
@@ -25,6 +26,7 @@ import { createStage } from './stage.js';
 import { createStore } from './store.js';
 import { createSun } from './sun.js';
 import { createSurprise } from './surprise.js';
+import { createTerrainFiles } from './terrain/files.js';
 import { createTimePlace } from './time-place.js';
 import { createTimelineBar } from './timeline/bar.js';
 import { createPlayer } from './timeline/player.js';
@@ -51,6 +53,7 @@ async function start() {
   const timePlace = createTimePlace(store);
   timePlace.onLeave(() => sun.nudge(0, 0));
   createWeatherReport(store);
+  const terrain = createTerrainFiles(store, { drop: canvas });
   const presets = createPresets(store, presetList);
   const fair = presets.all.find(({ name }) => name === FAIR)?.scene.clouds;
   const player = createPlayer(() => performance.now());
@@ -59,8 +62,11 @@ async function start() {
   const gallery = createGallery(presets);
   const surprise = createSurprise(store, byId('surprise', HTMLButtonElement), fair);
   const sky = createSky({ store, stage, sun, moon, hud, player, stopped: timeline.refused, refused: (pointer, message) => panel.complain(pointer, message) || complain(message) });
-  const known = { sun: sun.angles, moon: moon.place, ev: sky.exposure, timeAndPlace: timePlace.current, mapName: painter.mapName };
-  const suggestions = (/** @type {string} */ pointer) => (pointer.endsWith('/name') ? painter.names() : []);
+  const known = { sun: sun.angles, moon: moon.place, ev: sky.exposure, timeAndPlace: timePlace.current, mapName: painter.mapName, meshName: terrain.meshName, mountains: terrain.mountains, heightfields: terrain.heightfields };
+  const suggestions = (/** @type {string} */ pointer) => {
+    if (pointer === '/terrain/name') return terrain.names();
+    return pointer.endsWith('/name') ? painter.names() : [];
+  };
   const panel = createPanel(store, (value, fresh) => carryOver(value, fresh, known), known, suggestions);
   const narrow = window.matchMedia('(max-width: 720px)');
   const drawers = createDrawers({ gallery, painter, jobs: createJobs() }, () => narrow.matches && panel.show(false));
@@ -68,11 +74,14 @@ async function start() {
   createShare(store, address.link, stage.size);
   const save = createSave(store, stage.size);
   const help = byId('help', HTMLDialogElement);
+  const flight = createFlight(canvas, store, camera, sun, () => timePlace.current().latitude_deg);
   const keys = bindings({
     sun,
     camera,
+    flight,
     preset: presets.choose,
     panel: panel.toggle,
+    device: hud.toggle,
     bare: () => document.body.classList.toggle('bare'),
     save: save.open,
     play: timeline.playOrPause,
@@ -80,13 +89,13 @@ async function start() {
     help: () => help.showModal(),
   });
   fillHelp(keys);
-  listenToKeys(keys);
+  listenToKeys(keys, flight);
   byId('open-help', HTMLButtonElement).addEventListener('click', () => help.showModal());
   byId('open-save', HTMLButtonElement).addEventListener('click', save.open);
   listenToGestures(canvas, createDrags({ sun, moon, camera, stage }), camera);
   if (narrow.matches) panel.show(false);
 
-  sky.run([panel, presets, gallery, painter, timeline, timePlace, createDome(store, sun, moon), createMark(sun, camera, stage)]);
+  sky.run([panel, presets, gallery, painter, timeline, timePlace, terrain, createDome(store, sun, moon), createMark(sun, camera, stage), flight], flight.step);
 }
 
 start().catch((error) => complain(`The page cannot start: ${error.message}`));

@@ -41,9 +41,9 @@ export function createMark(sun, camera, stage) {
       const seen = at && clamp(at.x, 0, box.width) === at.x && clamp(at.y, 0, box.height) === at.y;
       ring.hidden = !seen;
       arrow.hidden = Boolean(seen) || !direction || !view.free;
-      if (at && seen && angles) {
+      if (direction && at && seen && angles) {
         ring.style.transform = `translate(${box.x + at.x}px, ${box.y + at.y}px)`;
-        ring.classList.toggle('sunk', angles.elevation_deg < camera.horizonDeg());
+        ring.classList.toggle('sunk', camera.elevationDeg(direction) < camera.horizonDeg());
         text.value = `${degrees(angles.azimuth_deg)}  ${degrees(angles.elevation_deg)}`;
       }
       if (!arrow.hidden && direction) {

@@ -6,7 +6,7 @@ import { child, tokens } from './pointer.js';
 import { turnedOn } from './starts.js';
 
 /** Order of the parts that a photographer meets first; others follow as the schema has them. */
-const ORDER = ['camera', 'sun', 'moon', 'stars', 'clouds', 'atmosphere', 'haze', 'planet', 'display'];
+const ORDER = ['camera', 'sun', 'moon', 'stars', 'clouds', 'terrain', 'shafts', 'atmosphere', 'haze', 'planet', 'display'];
 const OPEN = ['sun'];
 
 /** @typedef {import('./fields/row.js').Context} Context */
@@ -28,7 +28,7 @@ export function createPanel(store, carryOver, known, suggestions) {
   const properties = [...(store.root.properties ?? [])].sort((a, b) => rank(a.key) - rank(b.key));
   const fields = properties.map(({ key, node }) => {
     const pointer = child('', key);
-    const field = node.type === 'object' ? groupField(context, pointer, node, OPEN.includes(key)) : createField(context, pointer, node);
+    const field = node.type === 'object' || node.type === 'variant' ? groupField(context, pointer, node, OPEN.includes(key)) : createField(context, pointer, node);
     return { key, field };
   });
   byId('fields', HTMLDivElement).append(...fields.map(({ field }) => field.element));

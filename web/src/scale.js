@@ -13,8 +13,9 @@ const WIDEST_ROUND_ZERO = 1e4;
 /** @typedef {{position: (value: number) => number, value: (position: number) => number, step: number}} Scale */
 
 /** Null where no slider serves. @param {import('./schema.js').Node} node @returns {Scale | null} */
-export function createScale({ minimum, maximum, initial, unit, integer }) {
+export function createScale({ minimum, maximum, initial, unit, integer, description }) {
   if (minimum === undefined || maximum === undefined) return null;
+  if (/\bpower of two\b/.test(description)) return powersOfTwo(minimum, maximum);
   const span = maximum - minimum;
   if (minimum < 0 && span > WIDEST_ROUND_ZERO) return null;
   const anchor = minimum > 0 ? minimum : Number(initial) / BELOW_DEFAULT;
@@ -38,6 +39,16 @@ function logarithmic(minimum, low, high, integer) {
       const value = position <= 0 ? minimum : low * Math.exp(position * ratio);
       return clamp(integer ? Math.round(value) : Number(value.toPrecision(3)), minimum, high);
     },
+  };
+}
+
+/** @param {number} minimum @param {number} maximum @returns {Scale} */
+function powersOfTwo(minimum, maximum) {
+  const [low, span] = [Math.log2(minimum), Math.log2(maximum / minimum)];
+  return {
+    step: 1,
+    position: (value) => clamp((Math.log2(value) - low) / span, 0, 1),
+    value: (position) => 2 ** Math.round(low + position * span),
   };
 }
 

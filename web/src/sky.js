@@ -6,6 +6,8 @@ import { decodeFrame, isFinal, parseFrame } from './protocol.js';
 import { createSync } from './sync.js';
 import { compass, percent } from './text.js';
 
+/** A page that was hidden does not make up for it. */
+const LONGEST_STEP_MS = 250;
 /** From this status on the scene is not to blame. */
 const SERVER_FAULT = 500;
 /** Pointers of what is wrong with a timeline or its moment. */
@@ -105,9 +107,16 @@ export function createSky({ store, stage, sun, moon, hud, player, stopped, refus
 
   return {
     exposure: () => exposure,
-    /** @param {{update: () => void}[]} followers What shows the scene */
-    run(followers) {
+    /**
+     * @param {{update: () => void}[]} followers What shows the scene
+     * @param {(seconds: number) => void} step What changes it as time goes by
+     */
+    run(followers, step) {
+      let last = performance.now();
       const tick = () => {
+        const now = performance.now();
+        step(Math.min(now - last, LONGEST_STEP_MS) / 1000);
+        last = now;
         if (changed || player.isPlaying()) {
           changed = false;
           stage.setProjection(store.scene.camera.projection.kind);

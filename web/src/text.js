@@ -29,3 +29,11 @@ export const percent = (share) => `${Math.round(100 * share)} %`;
 /** The point of the compass, for speech. @param {number} azimuthDeg */
 export const compass = (azimuthDeg) =>
   ['north', 'north-east', 'east', 'south-east', 'south', 'south-west', 'west', 'north-west'][Math.round(azimuthDeg / 45) % 8];
+
+/** Millimetres to millions of kilometres with three or four digits that count. @param {number} metres */
+export function distance(metres) {
+  const size = Math.abs(metres);
+  const [value, unit] = size < 1000 ? [metres, 'm'] : [metres / 1000, 'km'];
+  const digits = Math.abs(value) < 10 ? 2 : Math.abs(value) < 100 ? 1 : 0;
+  return `${(Math.round(value * 10 ** digits) / 10 ** digits + 0).toFixed(digits)} ${unit}`;
+}

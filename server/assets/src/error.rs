@@ -18,10 +18,13 @@ pub enum Error {
         /// What was looked for.
         name: Name,
     },
-    /// Not a PNG at all.
-    #[error("the file is not a PNG: send one, 8 or 16 bits, grey, RGB, RGBA or palette")]
-    NotPng,
-    /// A PNG that is too wide or too high.
+    /// Nothing that the kind can be sent as.
+    #[error("the file is not {}: send {}", .kind.noun(), .kind.allowed())]
+    Form {
+        /// What it was sent as.
+        kind: Kind,
+    },
+    /// A picture or a grid that is too wide or too high.
     #[error("the picture has {width_px} x {height_px} pixels: scale it down to {MAX_SIDE_PX} a side or less")]
     Side {
         /// Its width, pixels.
@@ -29,10 +32,16 @@ pub enum Error {
         /// Its height, pixels.
         height_px: u32,
     },
-    /// A PNG that cannot be read to its end.
-    #[error("the PNG is damaged or cut short: {reason}")]
+    /// A file that cannot be read to its end.
+    #[error("the file is damaged or cut short: {reason}")]
     Damaged {
         /// What was found.
+        reason: String,
+    },
+    /// A file that can be read, and holds what an asset may not.
+    #[error("the file is refused: {reason}")]
+    Refused {
+        /// What it holds, and what it may hold.
         reason: String,
     },
     /// More bytes than one asset may have.
@@ -47,8 +56,8 @@ pub enum Error {
         /// Which limit is reached.
         reason: String,
     },
-    /// Pictures in use fill the memory that they may have.
-    #[error("pictures in use fill the memory they may have")]
+    /// Assets in use fill the memory that they may have.
+    #[error("assets in use fill the memory they may have")]
     Busy,
     /// The condition of the one who asked does not hold.
     #[error("the asset is not, or no more, what the request takes it for")]
@@ -67,6 +76,19 @@ pub enum Error {
 }
 
 impl Error {
+    /// For `map_err`: what a reader of files said.
+    pub(crate) fn damaged(error: impl std::fmt::Display) -> Self {
+        Self::Damaged {
+            reason: error.to_string(),
+        }
+    }
+
+    pub(crate) fn refused(reason: impl Into<String>) -> Self {
+        Self::Refused {
+            reason: reason.into(),
+        }
+    }
+
     /// For `map_err`: what was done when the system refused.
     pub(crate) fn folder(what: impl Into<String>) -> impl FnOnce(io::Error) -> Self {
         move |source| match source.kind() {

@@ -1,26 +1,32 @@
-//! What may be stored, and under which names.
+//! What may be stored, in which forms, and under which names.
 
 use crate::Error;
 use serde::{Serialize, Serializer};
 use std::fmt;
-use welkin_scene::is_asset_name;
+use welkin_scene::{AssetKind, is_asset_name};
 
 /// Kinds of asset. Each has a folder of its own.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Kind {
     /// Pictures that spread clouds over the land.
     WeatherMaps,
+    /// Heights over a rectangle.
+    Heightfields,
+    /// Triangles with their materials and textures.
+    Meshes,
 }
 
 impl Kind {
     /// All kinds.
-    pub const ALL: [Self; 1] = [Self::WeatherMaps];
+    pub const ALL: [Self; 3] = [Self::WeatherMaps, Self::Heightfields, Self::Meshes];
 
     /// As paths name it.
     #[must_use]
     pub const fn name(self) -> &'static str {
         match self {
             Self::WeatherMaps => "weather-maps",
+            Self::Heightfields => "heightfields",
+            Self::Meshes => "meshes",
         }
     }
 
@@ -30,18 +36,55 @@ impl Kind {
         Self::ALL.into_iter().find(|kind| kind.name() == name)
     }
 
-    /// As HTTP names what the files hold.
+    /// As a sentence calls one of them.
     #[must_use]
-    pub const fn media_type(self) -> &'static str {
+    pub const fn noun(self) -> &'static str {
         match self {
-            Self::WeatherMaps => "image/png",
+            Self::WeatherMaps => "a weather map",
+            Self::Heightfields => "a heightfield",
+            Self::Meshes => "a mesh",
         }
     }
 
-    /// What the files' names end with, the dot included.
-    pub(crate) const fn ending(self) -> &'static str {
+    /// What may be sent, in words.
+    #[must_use]
+    pub const fn allowed(self) -> &'static str {
         match self {
-            Self::WeatherMaps => ".png",
+            Self::WeatherMaps => "a PNG, 8 or 16 bits, grey, RGB, RGBA or palette",
+            Self::Heightfields => "a grey PNG of 16 bits, a GeoTIFF or an NPY",
+            Self::Meshes => "a .glb, or a .zip of an OBJ with its MTL and textures",
+        }
+    }
+
+    /// What it may be sent as.
+    #[must_use]
+    pub const fn forms(self) -> &'static [Form] {
+        match self {
+            Self::WeatherMaps => &[Form::Png],
+            Self::Heightfields => &[Form::Png, Form::Tiff, Form::Npy],
+            Self::Meshes => &[Form::Glb, Form::Zip],
+        }
+    }
+
+    /// Whether a folder of files may stand in the place of a file.
+    pub(crate) const fn has_folders(self) -> bool {
+        matches!(self, Self::Meshes)
+    }
+
+    /// Which of its forms a file has.
+    pub(crate) fn form_of(self, file: &[u8]) -> Result<Form, Error> {
+        let forms = self.forms().iter().copied();
+        let mut found = forms.filter(|form| form.signatures().iter().any(|begin| file.starts_with(begin)));
+        found.next().ok_or(Error::Form { kind: self })
+    }
+}
+
+impl From<AssetKind> for Kind {
+    fn from(kind: AssetKind) -> Self {
+        match kind {
+            AssetKind::WeatherMap => Self::WeatherMaps,
+            AssetKind::Heightfield => Self::Heightfields,
+            AssetKind::Mesh => Self::Meshes,
         }
     }
 }
@@ -55,6 +98,59 @@ impl fmt::Display for Kind {
 impl Serialize for Kind {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         serializer.serialize_str(self.name())
+    }
+}
+
+/// How a file holds an asset. What the file begins with tells, not its name.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Form {
+    /// Portable Network Graphics.
+    Png,
+    /// TIFF, with or without the tags of GeoTIFF.
+    Tiff,
+    /// An array of numpy.
+    Npy,
+    /// Binary glTF.
+    Glb,
+    /// An OBJ with what belongs to it, packed.
+    Zip,
+}
+
+impl Form {
+    /// As HTTP names what the file holds.
+    #[must_use]
+    pub const fn media_type(self) -> &'static str {
+        match self {
+            Self::Png => "image/png",
+            Self::Tiff => "image/tiff",
+            Self::Npy => "application/octet-stream",
+            Self::Glb => "model/gltf-binary",
+            Self::Zip => "application/zip",
+        }
+    }
+
+    /// What the files' names may end with, the dot included; the first is what the store writes.
+    pub(crate) const fn endings(self) -> &'static [&'static str] {
+        match self {
+            Self::Png => &[".png"],
+            Self::Tiff => &[".tif", ".tiff"],
+            Self::Npy => &[".npy"],
+            Self::Glb => &[".glb"],
+            Self::Zip => &[".zip"],
+        }
+    }
+
+    /// What the files may begin with.
+    const fn signatures(self) -> &'static [&'static [u8]] {
+        match self {
+            Self::Png => &[b"\x89PNG\r\n\x1a\n"],
+            // Classic and BigTIFF, in either byte order.
+            Self::Tiff => &[b"II*\0", b"MM\0*", b"II+\0", b"MM\0+"],
+            Self::Npy => &[b"\x93NUMPY"],
+            Self::Glb => &[b"glTF"],
+            Self::Zip => &[b"PK\x03\x04"],
+        }
     }
 }
 

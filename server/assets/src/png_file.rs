@@ -1,14 +1,12 @@
 //! PNG files: what they are, and their pixels as 8-bit RGBA.
 
 use crate::Error;
-use png::{BitDepth, ColorType, Decoder, DecodingError, Transformations};
+use png::{BitDepth, ColorType, Decoder, DecodingError, OutputInfo, Transformations};
 use serde::Serialize;
 use std::io::Cursor;
 
 /// The longest side of a picture, pixels.
 pub const MAX_SIDE_PX: u32 = 4096;
-/// What every PNG begins with.
-const SIGNATURE: [u8; 8] = *b"\x89PNG\r\n\x1a\n";
 /// Bytes of a pixel in memory.
 pub(crate) const BYTES_PER_PIXEL: u64 = 4;
 
@@ -50,19 +48,12 @@ impl PngFacts {
 
 /// Reads the header, which alone tells how much memory the picture will take.
 pub(crate) fn facts(file: &[u8]) -> Result<PngFacts, Error> {
-    facts_of(&mut decoder(file)?)
+    facts_of(&mut decoder(file, Transformations::IDENTITY))
 }
 
 /// Reads the whole file to its end. Of an animation, the picture that viewers without animation show.
 pub(crate) fn rgba(file: &[u8]) -> Result<Vec<u8>, Error> {
-    let mut decoder = decoder(file)?;
-    facts_of(&mut decoder)?;
-    let mut reader = decoder.read_info().map_err(damaged)?;
-    let too_large = || damaged(DecodingError::LimitsExceeded);
-    let mut samples = vec![0; reader.output_buffer_size().ok_or_else(too_large)?];
-    let frame = reader.next_frame(&mut samples).map_err(damaged)?;
-    // The end mark has to be there too, or the file was cut.
-    reader.finish().map_err(damaged)?;
+    let (frame, samples) = samples(decoder(file, Transformations::EXPAND | Transformations::ALPHA))?;
     let samples = match frame.bit_depth {
         BitDepth::Sixteen => to_eight_bits(&samples),
         _ => samples,
@@ -76,20 +67,47 @@ pub(crate) fn rgba(file: &[u8]) -> Result<Vec<u8>, Error> {
     }
 }
 
-fn decoder(file: &[u8]) -> Result<Decoder<Cursor<&[u8]>>, Error> {
-    if !file.starts_with(&SIGNATURE) {
-        return Err(Error::NotPng);
+/// The greys of a picture that has nothing else, each from 0 to 1.
+pub(crate) fn greys(file: &[u8]) -> Result<Vec<f32>, Error> {
+    let (frame, samples) = samples(decoder(file, Transformations::EXPAND))?;
+    match (frame.color_type, frame.bit_depth) {
+        (ColorType::Grayscale, BitDepth::Sixteen) => {
+            let (pairs, _) = samples.as_chunks::<2>();
+            let share = |&pair: &[u8; 2]| f32::from(u16::from_be_bytes(pair)) / f32::from(u16::MAX);
+            Ok(pairs.iter().map(share).collect())
+        }
+        (ColorType::Grayscale, _) => Ok(samples
+            .iter()
+            .map(|&sample| f32::from(sample) / f32::from(u8::MAX))
+            .collect()),
+        _ => Err(Error::refused(
+            "the PNG has colours or transparency: heights are greys, best of 16 bits",
+        )),
     }
+}
+
+fn samples(mut decoder: Decoder<Cursor<&[u8]>>) -> Result<(OutputInfo, Vec<u8>), Error> {
+    facts_of(&mut decoder)?;
+    let mut reader = decoder.read_info().map_err(Error::damaged)?;
+    let too_large = || Error::damaged(DecodingError::LimitsExceeded);
+    let mut samples = vec![0; reader.output_buffer_size().ok_or_else(too_large)?];
+    let frame = reader.next_frame(&mut samples).map_err(Error::damaged)?;
+    // The end mark has to be there too, or the file was cut.
+    reader.finish().map_err(Error::damaged)?;
+    Ok((frame, samples))
+}
+
+fn decoder(file: &[u8], transformations: Transformations) -> Decoder<Cursor<&[u8]>> {
     let mut decoder = Decoder::new(Cursor::new(file));
-    decoder.set_transformations(Transformations::EXPAND | Transformations::ALPHA);
+    decoder.set_transformations(transformations);
     // Compressed texts and profiles can grow a thousandfold, and nobody reads them.
     decoder.set_ignore_text_chunk(true);
     decoder.set_ignore_iccp_chunk(true);
-    Ok(decoder)
+    decoder
 }
 
 fn facts_of(decoder: &mut Decoder<Cursor<&[u8]>>) -> Result<PngFacts, Error> {
-    let info = decoder.read_header_info().map_err(damaged)?;
+    let info = decoder.read_header_info().map_err(Error::damaged)?;
     let (width_px, height_px) = (info.width, info.height);
     if width_px.max(height_px) > MAX_SIDE_PX {
         return Err(Error::Side { width_px, height_px });
@@ -124,10 +142,4 @@ fn spread_grey(samples: &[u8]) -> Vec<u8> {
         .iter()
         .flat_map(|&[grey, alpha]| [grey, grey, grey, alpha])
         .collect()
-}
-
-fn damaged(error: DecodingError) -> Error {
-    Error::Damaged {
-        reason: error.to_string(),
-    }
 }

@@ -17,26 +17,20 @@ const NAMES_TOLD: usize = 8;
 pub fn resolve(store: Option<&Store>, scene: &Scene) -> Result<Arc<SceneAssets>, Error> {
     let mut assets = SceneAssets::default();
     let mut problems = Vec::new();
-    for reference in scene.weather_map_references() {
-        let found = match (store, Name::new(reference.name)) {
-            (Some(store), Ok(name)) => store.weather_picture(&name),
-            (None, _) => {
-                problems.push(problem(
-                    &reference,
-                    "a weather map in an asset store, and none is set up here: --assets names its folder"
-                        .into(),
-                    "there is no asset store".into(),
-                ));
-                continue;
-            }
-            (_, Err(error)) => Err(error),
+    for reference in scene.asset_references() {
+        let kind = Kind::from(reference.kind);
+        let Some(store) = store else {
+            let allowed = format!(
+                "{} in an asset store, and none is set up here: --assets names its folder",
+                kind.noun()
+            );
+            problems.push(problem(&reference, allowed, "there is no asset store".into()));
+            continue;
         };
-        match found {
-            Ok(picture) => {
-                assets.weather_maps.insert(reference.name.to_owned(), picture);
-            }
+        match take(store, kind, reference.name, &mut assets) {
+            Ok(()) => {}
             Err(error @ (Error::Folder { .. } | Error::Busy)) => return Err(error),
-            Err(error) => problems.push(problem(&reference, allowed(store)?, error.to_string())),
+            Err(error) => problems.push(problem(&reference, allowed(store, kind)?, error.to_string())),
         }
     }
     if problems.is_empty() {
@@ -44,6 +38,16 @@ pub fn resolve(store: Option<&Store>, scene: &Scene) -> Result<Arc<SceneAssets>,
     } else {
         Err(SceneError::Invalid(problems).into())
     }
+}
+
+fn take(store: &Store, kind: Kind, name: &str, assets: &mut SceneAssets) -> Result<(), Error> {
+    let (asset, key) = (Name::new(name)?, name.to_owned());
+    match kind {
+        Kind::WeatherMaps => drop(assets.weather_maps.insert(key, store.weather_picture(&asset)?)),
+        Kind::Heightfields => drop(assets.heightfields.insert(key, store.height_grid(&asset)?)),
+        Kind::Meshes => drop(assets.meshes.insert(key, store.mesh_model(&asset)?)),
+    }
+    Ok(())
 }
 
 fn problem(reference: &AssetReference<'_>, allowed: String, reason: String) -> Problem {
@@ -55,10 +59,10 @@ fn problem(reference: &AssetReference<'_>, allowed: String, reason: String) -> P
     }
 }
 
-fn allowed(store: Option<&Store>) -> Result<String, Error> {
-    let assets = store.map_or_else(|| Ok(Vec::new()), |store| store.list(Kind::WeatherMaps))?;
+fn allowed(store: &Store, kind: Kind) -> Result<String, Error> {
+    let assets = store.list(kind)?;
     if assets.is_empty() {
-        return Ok("a weather map in the asset store, which has none".into());
+        return Ok(format!("{} in the asset store, which has none", kind.noun()));
     }
     let names: Vec<_> = assets
         .iter()
@@ -70,7 +74,8 @@ fn allowed(store: Option<&Store>) -> Result<String, Error> {
         more => format!(" and {more} more"),
     };
     Ok(format!(
-        "a weather map in the asset store: {}{more}",
+        "{} in the asset store: {}{more}",
+        kind.noun(),
         names.join(", ")
     ))
 }

@@ -1,13 +1,16 @@
 //! What tells, without reading it, that a file has changed.
 
 use cap_std::fs::Metadata;
-use std::time::{Duration, SystemTime};
+use std::{
+    hash::{DefaultHasher, Hash, Hasher},
+    time::{Duration, SystemTime},
+};
 
 /// File systems count time in steps of up to two seconds: two contents written within one step look alike.
 const COARSEST_CLOCK: Duration = Duration::from_secs(3);
 
 /// What the system tells of a file. Equal stamps that are [settled](Stamp::is_settled) mean equal content.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(crate) struct Stamp {
     bytes: u64,
     modified: Option<SystemTime>,
@@ -24,12 +27,30 @@ impl Stamp {
         }
     }
 
+    /// Of several files, each with its path: one that changes, comes or goes gives another stamp.
+    pub(crate) fn of_all(files: &[(String, Self)]) -> Self {
+        let mut hasher = DefaultHasher::new();
+        files.hash(&mut hasher);
+        let latest = files.iter().filter_map(|(_, stamp)| stamp.latest()).max();
+        Self {
+            bytes: files.iter().map(|(_, stamp)| stamp.bytes).sum(),
+            modified: latest,
+            inode: latest.map(|latest| (hasher.finish(), latest)),
+        }
+    }
+
+    pub(crate) const fn bytes(&self) -> u64 {
+        self.bytes
+    }
+
+    fn latest(&self) -> Option<SystemTime> {
+        let changed = self.inode.map(|(_, changed)| changed);
+        [self.modified, changed].into_iter().flatten().max()
+    }
+
     /// True where a change after this stamp was taken would have to give another.
     pub(crate) fn is_settled(&self) -> bool {
-        let latest = [self.modified, self.inode.map(|(_, changed)| changed)]
-            .into_iter()
-            .flatten()
-            .max();
+        let latest = self.latest();
         latest.is_some_and(|latest| latest.elapsed().is_ok_and(|age| age > COARSEST_CLOCK))
     }
 }

@@ -1,10 +1,11 @@
 //! The store: a folder with limits.
 
 use crate::{
-    Error, Kind, Name,
+    Error, Facts, Form, Kind, Name,
+    content::Content,
+    contents::Contents,
     folder::{Entry, Folder},
-    pictures::Pictures,
-    png_file::{self, PngFacts},
+    png_file,
     stamp::Stamp,
 };
 use serde::{Serialize, Serializer};
@@ -14,7 +15,7 @@ use std::{
     path::Path,
     sync::{Arc, Mutex, MutexGuard, PoisonError},
 };
-use welkin_scene::WeatherPicture;
+use welkin_scene::{HeightGrid, MeshModel, WeatherPicture};
 
 /// How much the store takes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
@@ -47,20 +48,23 @@ pub struct Usage {
 }
 
 /// An asset as it is listed.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Asset {
     /// What it is for.
     pub kind: Kind,
     /// What scenes call it.
     pub name: Name,
+    /// How the file holds it.
+    #[serde(rename = "format")]
+    pub form: Form,
     /// Size of the file, bytes.
     pub bytes: u64,
     /// SHA-256 of the file.
     #[serde(rename = "sha256", serialize_with = "hexadecimal")]
     pub digest: [u8; 32],
-    /// What the header says.
+    /// What it holds.
     #[serde(flatten)]
-    pub picture: PngFacts,
+    pub facts: Facts,
 }
 
 /// What became of a file that was put.
@@ -77,7 +81,7 @@ pub struct Store {
     folder: Folder,
     limits: Limits,
     known: Mutex<HashMap<(Kind, Name), (Stamp, Asset)>>,
-    pictures: Pictures,
+    contents: Contents,
 }
 
 impl Store {
@@ -90,7 +94,7 @@ impl Store {
             folder: Folder::open(folder)?,
             limits,
             known: Mutex::default(),
-            pictures: Pictures::default(),
+            contents: Contents::default(),
         })
     }
 
@@ -171,8 +175,10 @@ impl Store {
         if file.len() as u64 > limit_bytes {
             return Err(Error::TooLarge { limit_bytes });
         }
-        let asset = describe(kind, name, file)?;
-        self.pictures.decoded(asset.digest, file)?;
+        let asset = self.describe(kind, name, file)?;
+        if kind == Kind::WeatherMaps {
+            self.contents.read::<WeatherPicture>(asset.digest, file)?;
+        }
         let lock = self.folder.lock()?;
         let there = self.digest_for_condition(kind, name)?;
         if !allowed(there.as_ref()) {
@@ -182,7 +188,7 @@ impl Store {
             return Ok((asset, Put::Replaced));
         }
         self.check_room(kind, name, file.len() as u64)?;
-        self.folder.write(&lock, kind, name, file)?;
+        self.folder.write(&lock, kind, name, asset.form, file)?;
         let put = if there.is_some() {
             Put::Replaced
         } else {
@@ -217,13 +223,51 @@ impl Store {
     /// # Errors
     /// [`Error::Unknown`], [`Error::Busy`], and those of [`Self::asset`].
     pub fn weather_picture(&self, name: &Name) -> Result<Arc<WeatherPicture>, Error> {
-        let kind = Kind::WeatherMaps;
+        self.content(Kind::WeatherMaps, name)
+    }
+
+    /// A heightfield as a renderer wants it.
+    ///
+    /// # Errors
+    /// As [`Self::weather_picture`].
+    pub fn height_grid(&self, name: &Name) -> Result<Arc<HeightGrid>, Error> {
+        self.content(Kind::Heightfields, name)
+    }
+
+    /// A mesh as a renderer wants it.
+    ///
+    /// # Errors
+    /// As [`Self::weather_picture`].
+    pub fn mesh_model(&self, name: &Name) -> Result<Arc<MeshModel>, Error> {
+        self.content(Kind::Meshes, name)
+    }
+
+    fn content<T: Content>(&self, kind: Kind, name: &Name) -> Result<Arc<T>, Error> {
         let asset = self.asset(kind, name)?.ok_or_else(|| unknown(kind, name))?;
-        if let Some(found) = self.pictures.find(&asset.digest) {
+        if let Some(found) = self.contents.find(&asset.digest) {
             return Ok(found);
         }
         let (asset, file) = self.file(kind, name)?;
-        self.pictures.decoded(asset.digest, &file)
+        self.contents.read(asset.digest, &file)
+    }
+
+    /// What a file is. Of a picture its header tells; heights and triangles have to be read.
+    fn describe(&self, kind: Kind, name: &Name, file: &[u8]) -> Result<Asset, Error> {
+        let form = kind.form_of(file)?;
+        let digest = Sha256::digest(file).into();
+        let facts = match kind {
+            Kind::WeatherMaps => Facts::Picture(png_file::facts(file)?),
+            Kind::Heightfields => (&*self.contents.read::<HeightGrid>(digest, file)?).into(),
+            Kind::Meshes => (&*self.contents.read::<MeshModel>(digest, file)?).into(),
+        };
+        Ok(Asset {
+            kind,
+            name: name.clone(),
+            form,
+            bytes: file.len() as u64,
+            digest,
+            facts,
+        })
     }
 
     fn asset_with(&self, kind: Kind, name: &Name, stamp: Stamp) -> Result<Option<Asset>, Error> {
@@ -238,7 +282,7 @@ impl Store {
         let Some((stamp, file)) = self.folder.read(kind, name, self.limits.max_asset_bytes)? else {
             return Ok(None);
         };
-        let asset = describe(kind, name, &file)?;
+        let asset = self.describe(kind, name, &file)?;
         if stamp.is_settled() {
             self.known().insert((kind, name.clone()), (stamp, asset.clone()));
         }
@@ -292,16 +336,6 @@ fn unknown(kind: Kind, name: &Name) -> Error {
         kind,
         name: name.clone(),
     }
-}
-
-fn describe(kind: Kind, name: &Name, file: &[u8]) -> Result<Asset, Error> {
-    Ok(Asset {
-        kind,
-        name: name.clone(),
-        bytes: file.len() as u64,
-        digest: Sha256::digest(file).into(),
-        picture: png_file::facts(file)?,
-    })
 }
 
 fn hexadecimal<S: Serializer>(digest: &[u8; 32], serializer: S) -> Result<S::Ok, S::Error> {

@@ -11,6 +11,7 @@ use super::{
 };
 use crate::{commands::Failure, settings::Settings};
 use serde_json::{Map, json};
+use std::sync::Arc;
 use tables::Table;
 use welkin_scene::{Direction, Quality, Scene, SunPosition, renderer::Render};
 
@@ -81,6 +82,7 @@ impl Case for CloudCase {
         Limits {
             error: (judged && work == "final").then_some(0.01),
             flip: (judged && work == "preview").then_some(0.05),
+            ..Limits::default()
         }
     }
 
@@ -158,6 +160,7 @@ fn changes(size: Size, quality: Quality, settings: &Settings) -> Result<Account,
         renderer: &*renderer,
         size,
         quality,
+        assets: Arc::default(),
     };
     let (mut first, _) = viewer.see("first-frame", &scene)?;
     first.spent = watch.stop();
@@ -191,6 +194,7 @@ fn sweep(table: Table, size: Size, quality: Quality, settings: &Settings) -> Res
         renderer: &*renderer,
         size,
         quality,
+        assets: Arc::default(),
     };
     warm_up(&viewer, &table.scene(&Map::new())?)?;
     let mut works = Vec::new();
@@ -213,6 +217,7 @@ fn noise(size: Size, quality: Quality, settings: &Settings) -> Result<Account, F
         renderer: &*renderer,
         size,
         quality,
+        assets: Arc::default(),
     };
     let mut scene = tables::fair_weather();
     viewer.see("unmeasured", &scene)?;

@@ -176,9 +176,12 @@ fn fields(value: Value) -> Map<String, Value> {
     }
 }
 
-/// The thesis' clouds.
+/// The thesis' clouds, without shafts, which it does not draw.
 pub(super) fn shell() -> Scene {
-    preset_scene("bauman")
+    Scene {
+        shafts: None,
+        ..preset_scene("bauman")
+    }
 }
 
 /// Ours, beside the paper's.

@@ -6,6 +6,7 @@ use super::super::{
 };
 use crate::commands::Failure;
 use nv_flip::{DEFAULT_PIXELS_PER_DEGREE, FlipImageRgb8, FlipPool, flip};
+use std::sync::Arc;
 use welkin_scene::{
     Projection, Quality, Scene,
     renderer::{Frame, Output, Pixels, Render},
@@ -36,6 +37,7 @@ pub(super) fn works(
         renderer,
         size,
         quality,
+        assets: Arc::default(),
     };
     let exact = viewer(Quality::Final);
     let (brute_force, true_picture) = exact.see("brute-force", &reference)?;

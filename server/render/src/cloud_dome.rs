@@ -4,15 +4,16 @@
 
 use crate::{
     cloudscape::Cloudscape,
-    gpu::Gpu,
+    gpu::{Gpu, Shape},
     kernel::Recorder,
     lens::Lens,
     memo::Fingerprint,
     passes::{
         Table,
         cloud_dome::{CloudDome, NODE_FLOATS},
-        cloud_dome_light::{CloudDomeLight, SEEN_FLOATS},
+        cloud_dome_light::CloudDomeLight,
     },
+    shader::Texel,
     sunlight::DiscsLeft,
     uniforms::{Part, clouds::DomeUniform, narrow},
 };
@@ -21,7 +22,10 @@ use std::collections::{HashMap, VecDeque};
 
 /// `BLOCK_CELLS` of `lib/dome.wgsl`.
 const BLOCK_CELLS: u32 = 16;
-const BLOCK_CORNERS: u32 = (BLOCK_CELLS + 1) * (BLOCK_CELLS + 1);
+const BLOCK_SIDE: u32 = BLOCK_CELLS + 1;
+const BLOCK_CORNERS: u32 = BLOCK_SIDE * BLOCK_SIDE;
+/// `BLOCKS_IN_ROW` of `lib/dome.wgsl`.
+const BLOCKS_IN_ROW: u32 = 32;
 /// Domes that are kept: several viewers share the device.
 const MOST_DOMES: usize = 2;
 /// Blocks of one dome, 32 KB each.
@@ -40,23 +44,26 @@ const REACH_CELLS: f64 = 6.0;
 #[derive(Clone)]
 pub(crate) struct DomeView {
     pub(crate) cells: u32,
+    /// True for an observer under all clouds.
+    pub(crate) under_clouds: bool,
     /// Of the light of sun and moon.
     pub(crate) discs_left: DiscsLeft,
     pub(crate) pages: wgpu::Buffer,
-    pub(crate) seen: wgpu::Buffer,
+    pub(crate) seen: wgpu::TextureView,
 }
 
 impl DomeView {
     pub(crate) fn uniform(&self) -> Part {
-        uniform(self.cells, self.discs_left)
+        uniform(self.cells, self.under_clouds, self.discs_left)
     }
 }
 
-fn uniform(cells: u32, left: DiscsLeft) -> Part {
+fn uniform(cells: u32, under_clouds: bool, left: DiscsLeft) -> Part {
     Part::new(&DomeUniform {
         cells,
         sun_left: narrow(left.sun),
         moon_left: narrow(left.moon),
+        under_clouds: u32::from(under_clouds),
     })
 }
 
@@ -72,7 +79,7 @@ pub(crate) struct Blocks<'a> {
     pub(crate) dome: &'a wgpu::Buffer,
     pub(crate) list: wgpu::Buffer,
     pub(crate) nodes: &'a wgpu::Buffer,
-    pub(crate) seen: &'a wgpu::Buffer,
+    pub(crate) seen: &'a wgpu::TextureView,
     count: u32,
 }
 
@@ -96,7 +103,7 @@ struct Dome {
     cells: u32,
     slots: u32,
     nodes: wgpu::Buffer,
-    seen: wgpu::Buffer,
+    seen: wgpu::TextureView,
     blocks: HashMap<UVec2, Kept>,
 }
 
@@ -165,13 +172,22 @@ impl Dome {
     fn new(gpu: &Gpu, made_from: Fingerprint, cells: u32, wanted: u32) -> Self {
         let slots = wanted.next_power_of_two().clamp(*BLOCKS.start(), *BLOCKS.end());
         let corners = u64::from(slots) * u64::from(BLOCK_CORNERS);
-        let buffer = |label, floats| gpu.buffer(label, 4 * floats * corners, wgpu::BufferUsages::STORAGE);
+        let size = [BLOCKS_IN_ROW, slots.div_ceil(BLOCKS_IN_ROW)].map(|blocks| BLOCK_SIDE * blocks);
         Self {
             made_from,
             cells,
             slots,
-            nodes: buffer("cloud_dome", NODE_FLOATS),
-            seen: buffer("cloud_dome_light", SEEN_FLOATS),
+            nodes: gpu.buffer(
+                "cloud_dome",
+                4 * NODE_FLOATS * corners,
+                wgpu::BufferUsages::STORAGE,
+            ),
+            seen: gpu.written(
+                "cloud_dome_light",
+                [size[0], size[1], 1],
+                Shape::Flat,
+                Texel::Float,
+            ),
             blocks: HashMap::new(),
         }
     }
@@ -281,7 +297,7 @@ impl CloudDomes {
                     .is_some_and(|kept| kept.lit_by != Some(light))
             })
             .collect();
-        let uniform = uniform(cells, DiscsLeft::default());
+        let uniform = uniform(cells, scape.under_clouds, DiscsLeft::default());
         if !dark.is_empty() {
             let held = uniform.upload(gpu, "dome");
             let work = |blocks: &[UVec2]| Blocks {
@@ -303,6 +319,7 @@ impl CloudDomes {
         }
         let view = DomeView {
             cells,
+            under_clouds: scape.under_clouds,
             discs_left: DiscsLeft::default(),
             pages: dome.pages(gpu),
             seen: dome.seen.clone(),

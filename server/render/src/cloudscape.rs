@@ -24,6 +24,7 @@ use crate::{
     uniforms::{
         Part, Standpoint,
         clouds::{CloudFrameUniform, ShadowUniform},
+        narrow,
     },
 };
 use glam::Vec3;
@@ -38,7 +39,7 @@ use welkin_scene::{
 /// The passes of the clouds.
 pub(crate) struct CloudPasses {
     noise: CloudNoise,
-    aerial: Aerial,
+    pub(crate) aerial: Aerial,
     shadow: CloudShadow,
     pub(crate) dome: CloudDomes,
     pictures: Memo<Table>,
@@ -67,8 +68,12 @@ pub(crate) struct Cloudscape {
     multi_scattering: Arc<MultiScattering>,
     pub(crate) aerial: Arc<AerialVolumes>,
     pub(crate) shadow: Arc<Table>,
+    /// Altitude of the lowest.
+    pub(crate) base_m: f32,
     place_m: Vec3,
     light: Vec3,
+    /// Whether the observer is under all of them.
+    pub(crate) under_clouds: bool,
     one_layer: (&'static str, f64),
     made_from: Fingerprint,
 }
@@ -176,20 +181,33 @@ impl Cloudscape {
 pub(crate) struct CloudLight<'a> {
     pub(crate) stand: Standpoint,
     pub(crate) view: &'a Part,
+    /// True where there are clouds.
+    pub(crate) clouded: bool,
+    /// True where shafts tell which air they keep it from.
+    pub(crate) shafted: bool,
 }
 
 impl<'a> CloudLight<'a> {
     /// The sun, or at night the moon.
-    pub(crate) fn new(stand: &Standpoint, night: &Night, lights: &'a Lights) -> Self {
+    pub(crate) fn new(
+        stand: &Standpoint,
+        night: &Night,
+        lights: &'a Lights,
+        (clouded, shafted): (bool, bool),
+    ) -> Self {
         let by_moon = night.moon.filter(|moon| moon.counts > 0.0 && stand.is_night());
         by_moon.zip(lights.moon_view()).map_or(
             Self {
                 stand: *stand,
                 view: lights.view(false),
+                clouded,
+                shafted,
             },
             |(moon, view)| Self {
                 stand: moon.stand(stand),
                 view,
+                clouded,
+                shafted,
             },
         )
     }
@@ -203,6 +221,15 @@ const fn shadow_steps(quality: Quality) -> (f32, f32) {
         Quality::Final => (0.015, 6.0),
     }
 }
+
+/// How many times more steps the light's way takes between two heights under a low sun: it is that much longer, and what is
+/// stepped over there stands as stripes on the clouds. No more than four.
+fn slant(sun_cosine: f64) -> f32 {
+    narrow((LEVEL_COSINE / sun_cosine.abs()).clamp(1.0, 4.0))
+}
+
+/// From this cosine on light counts as low.
+const LEVEL_COSINE: f64 = 0.3;
 
 /// How fine the steps are against those that the scene asks for.
 const fn fineness(quality: Quality) -> f64 {
@@ -293,18 +320,23 @@ impl CloudPasses {
     ) -> Cloudscape {
         let scene = sky.scene;
         let clouds = Part::new(&sky.uniform(fineness(quality)));
-        let shade = sky.shade(&light.stand, scene.camera.position_m);
+        let mut shade = sky.shade(&light.stand, scene.camera.position_m);
+        if light.shafted {
+            shade.direct_left = 1.0;
+        }
+        let base_m = shade.base_m;
+        let under_clouds = light.stand.altitude_m < f64::from(shade.base_m);
         let shade = Part::new(&shade);
         let reads = (&*tables.transmittance, &tables.multi_scattering.source);
         let aerial = self
             .aerial
             .run(recorder, &tables.air, &light.stand, reads, tables.plan, quality);
         let (share, most_steps) = shadow_steps(quality);
-        let step_m = share * sky.noise_scale_m();
+        let slant = slant(light.stand.up.dot(light.stand.sun));
         let towards = ShadowUniform {
             light: light.stand.sun.as_vec3(),
-            step_m,
-            most_steps,
+            step_m: share * sky.noise_scale_m() / slant,
+            most_steps: most_steps * slant,
         };
         let shadow = self.shadow.run(
             recorder,
@@ -336,8 +368,10 @@ impl CloudPasses {
             multi_scattering: Arc::clone(&tables.multi_scattering),
             aerial,
             shadow,
+            base_m,
             place_m: crate::uniforms::narrow3(scene.camera.position_m),
             light: light.stand.sun.as_vec3(),
+            under_clouds,
             one_layer: sky.one_layer(),
             made_from,
         }

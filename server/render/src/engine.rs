@@ -8,6 +8,7 @@ use crate::{
     cpu::airglow::{NightLight, night_light},
     error::Error,
     gpu::Gpu,
+    groundscape::GroundPasses,
     kernel::Recorder,
     lens::Lens,
     lights::Lights,
@@ -29,7 +30,8 @@ use crate::{
     prepared::{Prepared, Tables, sky_inputs},
     renderer::RendererSettings,
     screen::{PICTURE_BYTES, RADIANCE_BYTES, Screen},
-    sunlight::{Direct, DiscsLeft},
+    shafts::exact_shafts,
+    sunlight::Direct,
     uniforms::{AirUniform, Part, Standpoint, TileUniform, ToneUniform, night::AirglowUniform},
 };
 use glam::UVec2;
@@ -53,6 +55,7 @@ pub(crate) struct Engine {
     tone: Tone,
     probe: Probe,
     clouds: CloudPasses,
+    ground: GroundPasses,
     screen: Screen,
     night_light: Memo<NightLight>,
     direct: Memo<Direct>,
@@ -95,6 +98,7 @@ impl Engine {
             tone,
             probe,
             clouds,
+            ground: GroundPasses::new(),
             screen: Screen::default(),
             night_light: Memo::new(8),
             direct: Memo::new(8),
@@ -174,15 +178,34 @@ impl Engine {
                     out: night.stars,
                 }
             });
+            let clouded = cloud_sky.is_some();
+            let shafted = exact_shafts(scene, clouded, order.quality).is_some();
+            let light = CloudLight::new(&tables.stand, &night, &lights, (clouded, shafted));
+            let moon_stand = night
+                .moon
+                .filter(|moon| moon.counts > 0.0)
+                .map(|moon| moon.stand(&tables.stand));
+            let ground = self.ground.scape(
+                &mut recorder,
+                &mut self.clouds.aerial,
+                &tables,
+                (scene, &order.assets),
+                (&light, moon_stand),
+                (order.quality, Some(size_px)),
+            )?;
             let clouds = cloud_sky.zip(textures).map(|(sky, textures)| {
-                let light = CloudLight::new(&tables.stand, &night, &lights);
                 self.clouds
                     .scape(&mut recorder, &tables, (&sky, textures), light, order.quality)
             });
             let camera = CameraUniform::new(&scene.camera, size_px);
             let dome = clouds
                 .as_ref()
-                .filter(|_| order.quality == Quality::Preview)
+                .filter(|scape| {
+                    let hidden = ground
+                        .as_ref()
+                        .is_some_and(|g| g.may_hide(scape.base_m, &tables.stand));
+                    order.quality == Quality::Preview && !hidden
+                })
                 .map(|scape| {
                     let lens = Lens::new(&scene.camera, size_px);
                     let pixel_angle = f64::from(camera.pixel_angle);
@@ -199,9 +222,10 @@ impl Engine {
                     let inputs = SkyInputs {
                         clouds: clouds.as_ref().map(|scape| CloudInputs {
                             scape,
-                            frame_px: small,
                             dome: dome.as_ref(),
                         }),
+                        ground: ground.as_ref(),
+                        frame_px: small,
                         ..sky_inputs(&tables, &lights, true, parts, sky_view.as_deref())
                     };
                     let compensation = crate::uniforms::narrow(compensation_ev);
@@ -213,15 +237,14 @@ impl Engine {
             let ((), spent) = recorder.finish(&[], |_| ())?;
             let mut times = self.clouds.take_times();
             times.extend(spent);
-            let discs_left = clouds.as_ref().map_or(Ok(DiscsLeft::default()), |scape| {
-                self.probe
-                    .clouds
-                    .discs_left(gpu, scape, scene, &tables.stand, &night)
-            })?;
+            let before = (clouds.as_ref(), ground.as_ref());
+            let discs_left = self.probe.discs_left(gpu, before, scene, &tables.stand, &night)?;
             let dome = dome.map(|dome| DomeView { discs_left, ..dome });
             let glare = lights.glare.behind(discs_left);
             let camera_part = Part::new(&camera);
-            let by_lattices = order.quality == Quality::Preview && tables.plan.runs_evenly();
+            let by_lattices = order.quality == Quality::Preview
+                && tables.plan.runs_evenly()
+                && clouds.is_some() == dome.is_some();
             Ok((
                 Prepared {
                     tables,
@@ -232,6 +255,7 @@ impl Engine {
                     sky_view,
                     stars,
                     clouds,
+                    ground,
                     exposure,
                     dome,
                     by_lattices,
@@ -289,7 +313,7 @@ impl Engine {
                 } else {
                     SkyTo::Radiance(&buffers.radiance)
                 };
-                let clouds = self.sky.run(&mut recorder, inputs, tile, to);
+                let (clouds, lit_ground) = self.sky.run(&mut recorder, inputs, tile, to);
                 if let Some(stars) = &frame.stars {
                     let reads = StarsInputs {
                         air: inputs.air,
@@ -300,6 +324,7 @@ impl Engine {
                             .as_ref()
                             .map(CloudsSeen::Dome)
                             .or(clouds.as_ref().map(CloudsSeen::Tile)),
+                        lit_ground: lit_ground.as_ref(),
                     };
                     self.stars
                         .run(&mut recorder, reads, stars, tile, &buffers.radiance);

@@ -33,9 +33,12 @@ pub enum Error {
     /// The device refused a command or ran out of memory.
     #[error("the device refused a command: {0}")]
     Command(String),
-    /// An order came without a picture that its scene names.
-    #[error("the order holds no weather map named {0}")]
+    /// An order came without an asset that its scene names.
+    #[error("the order holds no asset named {0}")]
     Asset(String),
+    /// A mesh cannot be ray-cast.
+    #[error("the mesh cannot be shown: {0}; cut its triangles more evenly")]
+    Mesh(String),
     /// The renderer's thread could not be started.
     #[error("the renderer's thread could not be started: {0}")]
     Thread(#[from] std::io::Error),

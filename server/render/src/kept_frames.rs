@@ -39,7 +39,7 @@ impl KeptFrames {
         }
         // Who waited for it is not part of what was asked, and pixels of assets are not needed to tell them apart.
         let order = FrameOrder {
-            assets: Arc::new(order.assets.without_pixels()),
+            assets: Arc::new(order.assets.without_content()),
             priority: Priority::Batch,
             ..order
         };

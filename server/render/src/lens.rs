@@ -101,6 +101,14 @@ impl Lens {
 
     /// Where on the picture a direction is seen; none outside of it.
     pub(crate) fn place(&self, direction: DVec3) -> Option<DVec2> {
+        self.image(direction).filter(|place| {
+            let inside = place.cmpge(DVec2::ZERO) & place.cmple(self.size_px);
+            inside.all()
+        })
+    }
+
+    /// The same, on a picture without edges; none behind a pinhole and outside a fisheye's circle.
+    pub(crate) fn image(&self, direction: DVec3) -> Option<DVec2> {
         let ahead = direction.dot(self.forward);
         let across = DVec2::new(direction.dot(self.right), direction.dot(self.up));
         let off = match self.projection {
@@ -139,9 +147,7 @@ impl Lens {
                 return Some(DVec2::new(face as f64 + s.min(1.0 - 1e-9), t) * self.size_px.y);
             }
         };
-        let place = self.size_px / 2.0 + off * DVec2::new(1.0, -1.0);
-        let inside = place.cmpge(DVec2::ZERO).all() && place.cmple(self.size_px).all();
-        inside.then_some(place)
+        Some(self.size_px / 2.0 + off * DVec2::new(1.0, -1.0))
     }
 
     /// Solid angle of the pixel whose centre is at a place and looks in `direction`, sr.

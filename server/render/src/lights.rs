@@ -23,6 +23,7 @@ struct MoonParts {
     moon: Part,
     metered: Part,
     view: Part,
+    metered_view: Part,
     face: wgpu::TextureView,
     lights: bool,
     sky_view: Option<Arc<Table>>,
@@ -69,7 +70,8 @@ impl Lights {
         let moon = night.moon.map(|over| MoonParts {
             moon: Part::new(&over.uniform(night.uncovered, false, of_moon.is_some())),
             metered: Part::new(&over.uniform(night.uncovered, true, false)),
-            view: Part::new(&over.view(scene, stand)),
+            view: Part::new(&over.view(scene, stand, false)),
+            metered_view: Part::new(&over.view(scene, stand, true)),
             face: face(),
             lights: over.counts > 0.0,
             sky_view: moon_sky_view,
@@ -99,7 +101,7 @@ impl Lights {
     pub(crate) fn moon(&self, metered: bool) -> Option<MoonInputs<'_>> {
         self.moon.as_ref().map(|parts| MoonInputs {
             moon: if metered { &parts.metered } else { &parts.moon },
-            view: &parts.view,
+            view: if metered { &parts.metered_view } else { &parts.view },
             face: &parts.face,
             lights: parts.lights,
             sky_view: parts.sky_view.as_deref(),

@@ -101,6 +101,15 @@ impl Plan {
         }
     }
 
+    /// The same with every ray followed.
+    pub(crate) fn along_rays(self) -> Self {
+        let method = match self.method {
+            Method::Lut => Method::Table,
+            method => method,
+        };
+        Self { method, ..self }
+    }
+
     /// True where few places tell of the pixels between them: not where each pixel has a ray of its own, nor across the
     /// faces of a cubemap.
     pub(crate) fn runs_evenly(&self) -> bool {

@@ -125,11 +125,11 @@ impl MoonOver {
         }
     }
 
-    /// The moon as a second sun, which sends no disc.
-    pub(crate) fn view(&self, scene: &Scene, stand: &Standpoint) -> ViewUniform {
+    /// The moon as a second sun; a meter looks neither at the disc nor at its image on water.
+    pub(crate) fn view(&self, scene: &Scene, stand: &Standpoint, metered: bool) -> ViewUniform {
         let light = Sun {
             irradiance_w_m2: (self.light.irradiance_w_m2 * self.counts).to_array(),
-            disc: false,
+            disc: self.disc && !metered,
             ..scene.sun.clone()
         };
         ViewUniform::new(&light, &self.stand(stand))

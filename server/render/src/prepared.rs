@@ -4,6 +4,7 @@ use crate::{
     camera::CameraUniform,
     cloud_dome::DomeView,
     cloudscape::Cloudscape,
+    groundscape::Groundscape,
     lights::{Glare, Lights},
     method::Plan,
     passes::{
@@ -15,6 +16,7 @@ use crate::{
     sunlight::Direct,
     uniforms::{Part, Standpoint},
 };
+use glam::UVec2;
 use std::sync::Arc;
 
 /// What the air and the observer give, before any pixel.
@@ -36,6 +38,7 @@ pub(crate) struct Prepared {
     pub(crate) sky_view: Option<Arc<Table>>,
     pub(crate) stars: Option<StarsOut>,
     pub(crate) clouds: Option<Cloudscape>,
+    pub(crate) ground: Option<Groundscape>,
     pub(crate) exposure: Arc<wgpu::Buffer>,
     /// A preview's clouds.
     pub(crate) dome: Option<DomeView>,
@@ -51,17 +54,17 @@ pub(crate) struct Prepared {
 
 /// Of a ray through the clouds, in pixels that read tables.
 const CLOUD_WORK: u32 = 48;
+/// Of a ray to what stands on the ground.
+const GROUND_WORK: u32 = 4;
 
 impl Prepared {
     pub(crate) fn sky_inputs(&self) -> SkyInputs<'_> {
         let parts = [self.lights.view(false), &self.camera_part, &self.observer];
         let dome = self.dome.as_ref();
         SkyInputs {
-            clouds: self.clouds.as_ref().map(|scape| CloudInputs {
-                scape,
-                frame_px: self.camera.size_px.as_uvec2(),
-                dome,
-            }),
+            clouds: self.clouds.as_ref().map(|scape| CloudInputs { scape, dome }),
+            ground: self.ground.as_ref(),
+            frame_px: self.camera.size_px.as_uvec2(),
             ..sky_inputs(&self.tables, &self.lights, false, parts, self.sky_view.as_deref())
         }
     }
@@ -69,7 +72,8 @@ impl Prepared {
     /// About how many times the work of a pixel that reads tables a pixel takes.
     pub(crate) fn work_per_pixel(&self) -> u32 {
         let followed = self.clouds.is_some() && self.dome.is_none();
-        self.tables.plan.work_per_pixel() + if followed { CLOUD_WORK } else { 0 }
+        let ground = if self.ground.is_some() { GROUND_WORK } else { 0 };
+        self.tables.plan.work_per_pixel() + ground + if followed { CLOUD_WORK } else { 0 }
     }
 }
 
@@ -84,6 +88,7 @@ pub(crate) fn sky_inputs<'a>(
         air: &tables.air,
         view,
         camera,
+        frame_px: UVec2::ZERO,
         observer,
         plan: tables.plan,
         transmittance: &tables.transmittance,
@@ -93,5 +98,6 @@ pub(crate) fn sky_inputs<'a>(
         airglow: lights.airglow(),
         moon: lights.moon(metered),
         clouds: None,
+        ground: None,
     }
 }

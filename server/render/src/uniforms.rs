@@ -1,6 +1,7 @@
 //! From the scene, in user units, to the structures that the shaders read. All conversion stands here.
 
 pub(crate) mod clouds;
+pub(crate) mod ground;
 pub(crate) mod night;
 
 use crate::{camera::CameraUniform, colour, lights::Glare, method::Steps};

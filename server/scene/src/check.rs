@@ -11,6 +11,7 @@ use crate::{
     problem::{Problem, Problems, number},
     solar::{YEARS, later, moment},
     sun::SunPosition,
+    terrain,
 };
 use chrono::SecondsFormat;
 use serde_json::{Value, json};
@@ -52,6 +53,9 @@ impl Check for Scene {
         airglow(self, at, problems);
         if let Some(clouds) = &self.clouds {
             clouds::check(clouds, &format!("{at}/clouds"), problems);
+        }
+        if let Some(terrain) = &self.terrain {
+            terrain::check(terrain, &format!("{at}/terrain"), problems);
         }
     }
 }

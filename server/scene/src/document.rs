@@ -2,7 +2,7 @@
 
 use crate::{
     atmosphere::Atmosphere, camera::Camera, clouds::Clouds, display::Display, haze::Haze, moon::Moon,
-    planet::Planet, stars::Stars, sun::Sun,
+    planet::Planet, shafts::Shafts, stars::Stars, sun::Sun, terrain::Terrain,
 };
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -31,6 +31,10 @@ pub struct Scene {
     pub clouds: Option<Clouds>,
     /// Haze or fog on the ground, in addition to the air's aerosols; `null` is none.
     pub haze: Option<Haze>,
+    /// Mountains, or a mesh such as a town, on the planet's sphere; `null` for none.
+    pub terrain: Option<Terrain>,
+    /// Shafts of light and of shadow that terrain and clouds draw into the air; `null` for none.
+    pub shafts: Option<Shafts>,
     /// From radiance to a picture.
     pub display: Display,
 }
@@ -47,6 +51,8 @@ impl Default for Scene {
             atmosphere: Some(Atmosphere::default()),
             clouds: Some(Clouds::default()),
             haze: None,
+            terrain: None,
+            shafts: Some(Shafts::default()),
             display: Display::default(),
         }
     }

@@ -32,14 +32,19 @@ pub mod problem;
 pub mod refinement;
 pub mod renderer;
 pub mod schema;
+pub mod shafts;
 mod shape;
 mod solar;
 pub mod stars;
 pub mod sun;
+pub mod terrain;
 pub mod timeline;
 
 pub use airglow::Airglow;
-pub use assets::{AssetReference, SceneAssets, WeatherPicture, is_asset_name};
+pub use assets::{
+    AssetKind, AssetReference, HeightGrid, Material, MeshModel, SceneAssets, Texture, WeatherPicture,
+    is_asset_name,
+};
 pub use atmosphere::{Atmosphere, Method, Mie, Orders, Ozone, Rayleigh};
 pub use bands::Bands;
 pub use camera::{Camera, FisheyeMapping, Projection};
@@ -55,7 +60,7 @@ pub use lunar::MoonSeen;
 pub use metar::{MetarAnswer, MetarRequest, ReportFault};
 pub use moon::{Moon, MoonPlace};
 pub use observer::Observer;
-pub use planet::Planet;
+pub use planet::{Planet, SphereSurface, Water};
 pub use preset::{Preset, preset, presets};
 pub use probe::{Irradiance, ProbeAnswer, ProbeRequest, SunPlace};
 pub use problem::{Problem, SceneError};
@@ -63,6 +68,8 @@ pub use schema::{
     frame_request_schema, job_request_schema, metar_answer_schema, metar_request_schema,
     probe_request_schema, scene_schema, timeline_schema,
 };
+pub use shafts::Shafts;
 pub use stars::{Orientation, Stars};
 pub use sun::{Sun, SunPosition};
+pub use terrain::Terrain;
 pub use timeline::Timeline;

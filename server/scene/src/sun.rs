@@ -18,7 +18,7 @@ pub struct Sun {
     pub angular_diameter_deg: f64,
     /// Darken the disc towards its edge (Neckel and Labs 1994). The disc sends the same irradiance either way.
     pub limb_darkening: bool,
-    /// Show the disc. Off for environment maps whose renderer samples the sun apart.
+    /// Show the disc, and its glitter on water. Off for environment maps whose renderer samples the sun apart.
     pub disc: bool,
 }
 

@@ -171,10 +171,11 @@ impl From<AssetError> for Error {
     fn from(error: AssetError) -> Self {
         match error {
             AssetError::Unknown { kind, name } => Self::NotFound(format!("/v1/assets/{kind}/{name}")),
-            AssetError::NotPng => Self::WrongFile(error.to_string()),
-            AssetError::Name | AssetError::Side { .. } | AssetError::Damaged { .. } => {
-                Self::BadFile(error.to_string())
-            }
+            AssetError::Form { .. } => Self::WrongFile(error.to_string()),
+            AssetError::Name
+            | AssetError::Side { .. }
+            | AssetError::Damaged { .. }
+            | AssetError::Refused { .. } => Self::BadFile(error.to_string()),
             AssetError::TooLarge { limit_bytes } => Self::BodyTooLarge { limit_bytes },
             AssetError::Full { .. } => Self::NoRoom(error.to_string()),
             AssetError::Busy => Self::Busy {

@@ -9,8 +9,8 @@ import { resetButton } from './row.js';
 
 /** Fields that a photographer looks for first. */
 const FIRST = [
-  'base_m', 'top_m', 'height_m', 'genus', 'type', 'coverage', 'density', 'precipitation', 'seed', 'layers', 'weather_map', 'wind',
-  'shape', 'phase', 'speed_m_s', 'position', 'position_m', 'direction', 'projection', 'exposure', 'tone_curve', 'visibility_m', 'extinction_per_m',
+  'name', 'mountains', 'base_m', 'top_m', 'height_m', 'genus', 'type', 'coverage', 'density', 'precipitation', 'seed', 'layers', 'weather_map', 'wind',
+  'centre_m', 'extent_m', 'shape', 'phase', 'speed_m_s', 'position', 'position_m', 'direction', 'projection', 'exposure', 'tone_curve', 'visibility_m', 'extinction_per_m',
   'phase_angle_deg', 'method', 'orders', 'view_steps', 'sun_steps',
 ];
 
@@ -46,6 +46,13 @@ export function createFold(context, pointer, node, open) {
   return { element: h('section', { class: 'group', 'data-pointer': pointer }, head, body), head, body, fold, reset };
 }
 
+/** What stands under the heading: all fields of an object, or the one field of anything else. @param {import('./row.js').Context} context @param {string} pointer @param {Node} node */
+function createBody(context, pointer, node) {
+  if (node.type === 'object') return createFields(context, pointer, node);
+  const { element, update } = createField(context, pointer, { ...node, nullable: false });
+  return { elements: [element], update };
+}
+
 /** @param {import('./row.js').Context} context @param {string} pointer @param {Node} node @param {boolean} [open] @returns {Field} */
 export function groupField(context, pointer, node, open = false) {
   const { element, head, body, fold, reset } = createFold(context, pointer, node, open);
@@ -71,7 +78,7 @@ export function groupField(context, pointer, node, open = false) {
         return;
       }
       if (!fields) {
-        fields = createFields(context, pointer, node);
+        fields = createBody(context, pointer, node);
         body.replaceChildren(...fields.elements);
       }
       fields.update(value);

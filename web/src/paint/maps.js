@@ -1,10 +1,6 @@
 /** The weather maps that the server keeps, and the list of them to choose from. */
-import { listMaps, putMap } from '../api.js';
+import { namesOf, upload } from '../assets.js';
 import { h } from '../dom.js';
-import { assetName } from './place.js';
-
-const PRECONDITION_FAILED = 412;
-const MOST_TRIES = 100;
 
 /** @param {HTMLSelectElement} select @param {(name: string) => void} chosen */
 export function createMaps(select, chosen) {
@@ -23,20 +19,10 @@ export function createMaps(select, chosen) {
       if (!names.includes(name)) names = [...names, name].toSorted();
     },
     async refresh() {
-      names = (await listMaps()).map(({ name }) => name);
+      names = await namesOf('weather-maps');
     },
     show,
-    /** Under the file's name, or that with a number where there is one of it. @param {File} file @returns {Promise<string>} */
-    async upload(file) {
-      const base = assetName(file.name);
-      for (let i = 1; ; i++) {
-        const name = i === 1 ? base : `${base}-${i}`;
-        try {
-          return (await putMap(name, file, { isNew: true })).name;
-        } catch (error) {
-          if (/** @type {any} */ (error).problem?.status !== PRECONDITION_FAILED || i === MOST_TRIES) throw error;
-        }
-      }
-    },
+    /** @param {File} file @returns {Promise<string>} Its name */
+    upload: (file) => upload('weather-maps', file, 'map'),
   };
 }

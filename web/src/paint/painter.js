@@ -1,5 +1,5 @@
 /** Paints the weather: the map's drawer, its brush, and the way of the map to the server and into the scene. */
-import { getMap, putMap } from '../api.js';
+import { getAsset, putAsset } from '../api.js';
 import { byId } from '../dom.js';
 import { announce } from '../toast.js';
 import { createBoard } from './board.js';
@@ -61,7 +61,7 @@ export function createPainter(store, stage, fair, open) {
   const publisher = createPublisher(async () => {
     const channels = [...painted];
     painted.clear();
-    await putMap(name, await toPng(raster));
+    await putAsset('weather-maps', name, await toPng(raster));
     maps.add(name);
     settle();
     use(name, channels);
@@ -106,7 +106,7 @@ export function createPainter(store, stage, fair, open) {
   const load = (map) => {
     held = map;
     return attempt(async () => {
-      const rgba = await fromPng(await getMap(map));
+      const rgba = await fromPng(await getAsset('weather-maps', map));
       if (held !== map) return;
       raster.read(rgba);
       undo.disabled = true;
@@ -152,7 +152,7 @@ export function createPainter(store, stage, fair, open) {
       const map = saveName.value;
       replace.hidden = true;
       try {
-        await putMap(map, await toPng(raster), { isNew });
+        await putAsset('weather-maps', map, await toPng(raster), { isNew });
       } catch (cause) {
         if (!isNew || /** @type {any} */ (cause).problem?.status !== PRECONDITION_FAILED) throw cause;
         replace.hidden = false;
@@ -217,7 +217,7 @@ export function createPainter(store, stage, fair, open) {
     async mapName() {
       await maps.refresh();
       if (maps.names().length > 0) return held ?? maps.names()[0];
-      await putMap(name, await toPng(raster));
+      await putAsset('weather-maps', name, await toPng(raster));
       maps.add(name);
       held = name;
       open();

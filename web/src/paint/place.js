@@ -59,7 +59,3 @@ export function shownBy(scene, fair, { name, extent_m }, channels) {
   const precipitation = channels.includes('rain') && clouds.precipitation === 0 ? 1 : clouds.precipitation;
   return { ...scene, clouds: { ...clouds, layers, precipitation, weather_map: { kind: 'asset', name, convention: CONVENTION, extent_m } } };
 }
-
-/** A name that an asset may have, of a file's name. @param {string} file */
-export const assetName = (file) =>
-  file.toLowerCase().replace(/\.[a-z0-9]+$/, '').replaceAll(/[^a-z0-9_-]+/g, '-').replace(/^[_-]+/, '').slice(0, 60).replace(/-+$/, '') || 'map';

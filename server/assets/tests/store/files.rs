@@ -3,7 +3,7 @@
 use png::{BitDepth, ColorType, Encoder};
 use std::fs;
 use tempfile::TempDir;
-use welkin_assets::{Asset, Error, Kind, Limits, Name, Put, Store};
+use welkin_assets::{Asset, Error, Facts, Kind, Limits, Name, PngFacts, Put, Store};
 
 pub(crate) const MAPS: Kind = Kind::WeatherMaps;
 
@@ -24,6 +24,14 @@ pub(crate) fn store_of(limits: Limits) -> (TempDir, Store) {
 /// Puts without a condition.
 pub(crate) fn put(store: &Store, to: &str, file: &[u8]) -> Result<(Asset, Put), Error> {
     store.put(MAPS, &name(to), file, |_| true)
+}
+
+/// What the header of a weather map says.
+pub(crate) fn header(asset: &Asset) -> PngFacts {
+    match asset.facts {
+        Facts::Picture(picture) => picture,
+        other => panic!("{other:?}"),
+    }
 }
 
 /// A file placed in the folder by other means than the store.

@@ -70,7 +70,7 @@ fn foreign_files_count_and_are_passed_over() {
     assert_eq!(store.usage().unwrap().count, 2, "good and broken");
     assert!(matches!(
         store.weather_picture(&name("broken")),
-        Err(Error::NotPng)
+        Err(Error::Form { .. })
     ));
     assert_eq!(put(&store, "broken", &small(3)).unwrap().1, Put::Replaced);
     assert_eq!(store.weather_picture(&name("broken")).unwrap().rgba[0], 3);

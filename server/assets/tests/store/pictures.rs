@@ -1,6 +1,6 @@
 //! Every form that PNG has, as the renderer gets it.
 
-use crate::files::{MAPS, chunk, name, png, put, small, store};
+use crate::files::{MAPS, chunk, header, name, png, put, small, store};
 use png::{BitDepth, ColorType};
 use welkin_assets::{Colour, Put, Store};
 
@@ -10,7 +10,7 @@ fn rgba(store: &Store, file: &[u8]) -> Vec<u8> {
     assert_eq!(picture.digest, asset.digest);
     assert_eq!(
         (picture.width_px, picture.height_px),
-        (asset.picture.width_px, asset.picture.height_px)
+        (header(&asset).width_px, header(&asset).height_px)
     );
     picture.rgba.to_vec()
 }
@@ -160,7 +160,7 @@ fn files_are_kept_byte_by_byte_with_what_the_header_says() {
     let (asset, done) = put(&store, "front", &file).unwrap();
     assert_eq!(done, Put::Created);
     assert_eq!(
-        (asset.picture.colour, asset.picture.bit_depth, asset.bytes),
+        (header(&asset).colour, header(&asset).bit_depth, asset.bytes),
         (Colour::Rgb, 8, file.len() as u64)
     );
     let (again, kept) = store.file(MAPS, &name("front")).unwrap();

@@ -7,6 +7,10 @@ pub(crate) mod cloud;
 #[cfg(test)]
 pub(crate) mod geometry;
 #[cfg(test)]
+pub(crate) mod heightfield;
+#[cfg(test)]
+pub(crate) mod mesh;
+#[cfg(test)]
 pub(crate) mod moon;
 #[cfg(test)]
 pub(crate) mod noise;

@@ -9,6 +9,7 @@ use crate::{
     lights::Lights,
     night::Night,
     passes::probe::{ProbeInputs, Seen, Sight},
+    shafts::exact_shafts,
     sunlight::{Direct, DiscsLeft},
 };
 use welkin_scene::{Quality, Scene, assets::SceneAssets};
@@ -36,17 +37,25 @@ impl Engine {
             let face = || moon_face(&self.moon_face, gpu);
             let direct = Direct::new(scene, &tables.stand, &night);
             let lights = Lights::new(scene, &tables.stand, night, &direct, glow, face, None);
+            let clouded = cloud_sky.is_some();
+            let shafted = exact_shafts(scene, clouded, Quality::Final).is_some();
+            let light = CloudLight::new(&tables.stand, &night, &lights, (clouded, shafted));
+            let moonlit = night.moon.filter(|moon| moon.counts > 0.0);
+            let ground = self.ground.scape(
+                &mut recorder,
+                &mut self.clouds.aerial,
+                &tables,
+                (scene, assets),
+                (&light, moonlit.map(|moon| moon.stand(&tables.stand))),
+                (Quality::Final, None),
+            )?;
             let clouds = cloud_sky.zip(textures).map(|(sky, textures)| {
-                let light = CloudLight::new(&tables.stand, &night, &lights);
                 self.clouds
                     .scape(&mut recorder, &tables, (&sky, textures), light, Quality::Final)
             });
             recorder.finish(&[], |_| ())?;
-            let discs_left = clouds.as_ref().map_or(Ok(DiscsLeft::default()), |scape| {
-                self.probe
-                    .clouds
-                    .discs_left(gpu, scape, scene, &tables.stand, &night)
-            })?;
+            let before = (clouds.as_ref(), ground.as_ref());
+            let discs_left = self.probe.discs_left(gpu, before, scene, &tables.stand, &night)?;
             let moon_stand = night.moon.map(|moon| moon.stand(&tables.stand));
             let inputs = ProbeInputs {
                 air: &tables.air,
@@ -58,6 +67,7 @@ impl Engine {
                 airglow: lights.airglow(),
                 moon: lights.moon(false).zip(moon_stand),
                 clouds: clouds.as_ref(),
+                ground: ground.as_ref(),
             };
             Ok((self.probe.run(gpu, inputs, sights)?, discs_left))
         })

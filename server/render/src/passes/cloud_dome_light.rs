@@ -11,9 +11,6 @@ pub(crate) struct CloudDomeLight {
     kernels: Variants,
 }
 
-/// Floats of a corner: what to add in R, G and B, and what comes through.
-pub(crate) const SEEN_FLOATS: u64 = 4;
-
 impl CloudDomeLight {
     pub(crate) const fn new() -> Self {
         Self {
@@ -30,7 +27,7 @@ impl CloudDomeLight {
             Bind::Buffer(&parts.observer),
             Bind::Buffer(&blocks.list),
             Bind::Buffer(blocks.nodes),
-            Bind::Buffer(blocks.seen),
+            Bind::Table(blocks.seen),
         ]);
         recorder.dispatch(
             self.kernels.get(gpu, &[scape.one_layer()]),

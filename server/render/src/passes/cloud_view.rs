@@ -2,6 +2,7 @@
 
 use crate::{
     cloudscape::Cloudscape,
+    groundscape::Groundscape,
     kernel::{Bind, Recorder, Variants},
     memo::{Fingerprint, Memo},
     passes::cloud_dome::NODE_FLOATS,
@@ -59,12 +60,30 @@ impl CloudView {
         }
     }
 
+    /// Places along the ray of each of a tile's pixels, for once.
+    pub(crate) fn look(
+        &mut self,
+        recorder: &mut Recorder<'_>,
+        scape: &Cloudscape,
+        (camera, projection): (&Part, u32),
+        tile: TileUniform,
+    ) -> wgpu::Buffer {
+        let size = bytes_of(tile.size_px);
+        let seen = recorder
+            .gpu
+            .buffer("clouds seen", size, wgpu::BufferUsages::STORAGE);
+        self.march(recorder, scape, (camera, projection), (tile, 0.0), (&seen, None));
+        seen
+    }
+
+    /// Nothing is looked for behind what stands on the ground.
     pub(crate) fn run(
         &mut self,
         recorder: &mut Recorder<'_>,
         scape: &Cloudscape,
         (camera, projection): (&Part, u32),
         (tile, frame_px): (TileUniform, UVec2),
+        ground: Option<(&Groundscape, &wgpu::Buffer)>,
     ) -> Arc<ViewNodes> {
         let gpu = recorder.gpu;
         let make = |size_px, pixels: u32| ViewNodes {
@@ -73,7 +92,10 @@ impl CloudView {
         };
         let whole = whole_frame(frame_px);
         let nodes = if whole.1 > 0.0 {
-            let made_from = Fingerprint::of(("cloud_view", scape.shape_fingerprint(), camera, projection));
+            let made_from = Fingerprint::of((
+                ("cloud_view", scape.shape_fingerprint(), camera, projection),
+                ground.map(|(ground, _)| ground.place_fingerprint()),
+            ));
             self.memo.get_or_weighing(bytes_of(frame_px), made_from, || {
                 make(frame_px, frame_px.x * frame_px.y)
             })
@@ -83,21 +105,47 @@ impl CloudView {
         if whole.1 > 0.0 && pixels_of(tile, frame_px).all(|at| nodes.done[at].load(Relaxed)) {
             return nodes;
         }
+        let before = ground.map(|(_, lit_ground)| lit_ground);
+        self.march(
+            recorder,
+            scape,
+            (camera, projection),
+            (tile, whole.1),
+            (&nodes.buffer, before),
+        );
+        if whole.1 > 0.0 {
+            pixels_of(tile, frame_px).for_each(|at| nodes.done[at].store(true, Relaxed));
+        }
+        nodes
+    }
+
+    fn march(
+        &mut self,
+        recorder: &mut Recorder<'_>,
+        scape: &Cloudscape,
+        (camera, projection): (&Part, u32),
+        (tile, whole): (TileUniform, f64),
+        (nodes, lit_ground): (&wgpu::Buffer, Option<&wgpu::Buffer>),
+    ) {
+        let gpu = recorder.gpu;
         let parts = scape.upload(gpu);
         let (camera, place) = (camera.upload(gpu, "camera"), Part::new(&tile).upload(gpu, "tile"));
+        let nothing = gpu.buffer("unused", 16, wgpu::BufferUsages::STORAGE);
         let mut binds = scape.march_binds(&parts);
         binds.extend([
             Bind::Buffer(&camera),
             Bind::Buffer(&place),
             Bind::Buffer(&parts.observer),
-            Bind::Buffer(&nodes.buffer),
+            Bind::Buffer(nodes),
+            Bind::Buffer(lit_ground.unwrap_or(&nothing)),
         ]);
-        let constants = [scape.one_layer(), whole, ("PROJECTION", f64::from(projection))];
+        let constants = [
+            scape.one_layer(),
+            ("WHOLE_FRAME", whole),
+            ("PROJECTION", f64::from(projection)),
+            ("GROUND", f64::from(u8::from(lit_ground.is_some()))),
+        ];
         let kernel = self.kernels.get(gpu, &constants);
         recorder.dispatch(kernel, &binds, [tile.size_px.x, tile.size_px.y, 1]);
-        if whole.1 > 0.0 {
-            pixels_of(tile, frame_px).for_each(|at| nodes.done[at].store(true, Relaxed));
-        }
-        nodes
     }
 }

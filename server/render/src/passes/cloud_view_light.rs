@@ -32,7 +32,7 @@ impl CloudViewLight {
         scape: &Cloudscape,
         (camera, projection): (&Part, u32),
         (tile, frame_px): (TileUniform, UVec2),
-        nodes: &ViewNodes,
+        (nodes, lit_ground): (&ViewNodes, Option<&wgpu::Buffer>),
     ) -> Table {
         let gpu = recorder.gpu;
         let size_px = tile.size_px;
@@ -45,6 +45,7 @@ impl CloudViewLight {
         let parts = scape.upload(gpu);
         let place = Part::new(&tile);
         let (camera, place) = (camera.upload(gpu, "camera"), place.upload(gpu, "tile"));
+        let nothing = gpu.buffer("unused", 16, wgpu::BufferUsages::STORAGE);
         let mut binds = scape.binds(&parts);
         binds.extend([
             Bind::Buffer(&camera),
@@ -52,11 +53,13 @@ impl CloudViewLight {
             Bind::Buffer(&parts.observer),
             Bind::Buffer(&nodes.buffer),
             Bind::Table(&view),
+            Bind::Buffer(lit_ground.unwrap_or(&nothing)),
         ]);
         let constants = [
             scape.one_layer(),
             whole_frame(frame_px),
             ("PROJECTION", f64::from(projection)),
+            ("GROUND", f64::from(u8::from(lit_ground.is_some()))),
         ];
         recorder.dispatch(
             self.kernels.get(gpu, &constants),

@@ -1,13 +1,23 @@
 //! Radiance, transmittance and distance at exact directions.
 
-use super::{Table, cloud_probe::CloudProbe, multi_scattering::MultiScattering, sky::MoonInputs};
+use super::{
+    Table,
+    cloud_probe::CloudProbe,
+    ground_light::LightInputs,
+    ground_view::{GroundView, Looks},
+    multi_scattering::MultiScattering,
+    sky::MoonInputs,
+};
 use crate::{
     cloudscape::Cloudscape,
     error::Error,
     gpu::Gpu,
+    groundscape::{GroundTiles, Groundscape},
     kernel::{Bind, Recorder, Variants},
+    memo::Memo,
     method::Plan,
     shader,
+    sunlight::DiscsLeft,
     uniforms::{
         Part, Standpoint,
         clouds::{CloudFrameUniform, ShadeUniform},
@@ -25,6 +35,9 @@ pub(crate) const CLOUDED_CHUNK: usize = 1024;
 pub(crate) struct Probe {
     kernels: Variants,
     pub(crate) clouds: CloudProbe,
+    ground: GroundTiles,
+    pub(crate) view: GroundView,
+    pub(crate) discs: Memo<DiscsLeft>,
 }
 
 /// A direction to probe.
@@ -55,6 +68,7 @@ pub(crate) struct ProbeInputs<'a> {
     /// The moon, and the observer with it in the sun's place.
     pub(crate) moon: Option<(MoonInputs<'a>, Standpoint)>,
     pub(crate) clouds: Option<&'a Cloudscape>,
+    pub(crate) ground: Option<&'a Groundscape>,
 }
 
 impl Probe {
@@ -62,6 +76,9 @@ impl Probe {
         Self {
             kernels: Variants::new(&shader::PROBE),
             clouds: CloudProbe::new(),
+            ground: GroundTiles::new(),
+            view: GroundView::new(),
+            discs: Memo::new(8),
         }
     }
 
@@ -101,7 +118,8 @@ impl Probe {
         );
         let air = inputs.air.upload(gpu, "air");
         let view = inputs.view.upload(gpu, "view");
-        let observer = Part::new(&inputs.stand.observer(inputs.plan.probe_steps())).upload(gpu, "observer");
+        let on_way = Part::new(&inputs.stand.observer(inputs.plan.probe_steps()));
+        let observer = on_way.upload(gpu, "observer");
         let of_moon = inputs.moon.map(|(moon, _)| moon);
         let moon_stand = inputs.moon.map_or(*inputs.stand, |(_, stand)| stand);
         let airglow = inputs.airglow.upload(gpu, "airglow");
@@ -114,9 +132,28 @@ impl Probe {
         let face = of_moon.map_or(&inputs.transmittance.view, |m| m.face);
         let mut recorder = Recorder::new(gpu);
         let threads = u32::try_from(packed.len()).unwrap_or(u32::MAX);
-        let clouds = inputs
-            .clouds
-            .map(|scape| self.clouds.run(&mut recorder, scape, &directions, threads));
+        let lit_ground = inputs.ground.map(|scape| {
+            let light = LightInputs {
+                air: inputs.air,
+                view: inputs.view,
+                observer: &on_way,
+                plan: inputs.plan.along_rays(),
+                transmittance: inputs.transmittance,
+                irradiance: &inputs.multi_scattering.irradiance,
+                source: &inputs.multi_scattering.source,
+                airglow: inputs.airglow,
+                moon_view: of_moon.filter(|moon| moon.lights).map(|moon| moon.view),
+                clouds: inputs.clouds,
+                followed: true,
+            };
+            let looks = Looks::List(&directions, threads);
+            self.ground.run(&mut recorder, scape, light, looks)
+        });
+        let clouds = inputs.clouds.map(|scape| {
+            let before = lit_ground.as_ref();
+            self.clouds
+                .run(&mut recorder, scape, &directions, threads, before)
+        });
         let (shade, cloud_frame) = inputs.clouds.map_or_else(
             || (Part::new(&ShadeUniform::default()), CloudFrameUniform::default()),
             |scape| (scape.shade.clone(), scape.frame()),
@@ -126,6 +163,7 @@ impl Probe {
         let shadow = inputs
             .clouds
             .map_or(&inputs.multi_scattering.source.view, |scape| &scape.shadow.view);
+        let unused = gpu.buffer("unused", 16, wgpu::BufferUsages::STORAGE);
         let binds = [
             Bind::Buffer(&air),
             Bind::Buffer(&view),
@@ -145,6 +183,7 @@ impl Probe {
             Bind::Buffer(&shade),
             Bind::Table(shadow),
             Bind::Buffer(&cloud_frame),
+            Bind::Buffer(lit_ground.as_ref().unwrap_or(&unused)),
         ];
         let nested = inputs.plan.method == Method::Nested;
         let flag = |on: bool| f64::from(u8::from(on));
@@ -156,6 +195,7 @@ impl Probe {
             ("MOON", flag(of_moon.is_some())),
             ("MOONLIGHT", flag(of_moon.is_some_and(|m| m.lights))),
             ("CLOUDS", flag(inputs.clouds.is_some())),
+            ("GROUND", flag(inputs.ground.is_some())),
         ];
         let kernel = self.kernels.get(gpu, &constants);
         recorder.dispatch(kernel, &binds, [threads, 1, 1]);

@@ -4,6 +4,8 @@ use super::{
     Table,
     cloud_view::CloudView,
     cloud_view_light::CloudViewLight,
+    ground_light::LightInputs,
+    ground_view::Looks,
     tone::{ToneInputs, curve_code},
 };
 use crate::{
@@ -11,6 +13,7 @@ use crate::{
     cloudscape::Cloudscape,
     frame_job::RUN,
     gpu::Gpu,
+    groundscape::{GroundTiles, Groundscape},
     kernel::{Bind, Recorder, Variants},
     memo::Fingerprint,
     method::Plan,
@@ -42,6 +45,7 @@ pub(crate) struct Sky {
     kernels: Variants,
     clouds: CloudView,
     clouds_light: CloudViewLight,
+    ground: GroundTiles,
     lattices: [Lattice; 2],
 }
 
@@ -51,6 +55,8 @@ pub(crate) struct SkyInputs<'a> {
     pub(crate) air: &'a Part,
     pub(crate) view: &'a Part,
     pub(crate) camera: &'a Part,
+    /// Of the whole frame.
+    pub(crate) frame_px: UVec2,
     pub(crate) observer: &'a Part,
     pub(crate) plan: Plan,
     pub(crate) transmittance: &'a Table,
@@ -61,14 +67,14 @@ pub(crate) struct SkyInputs<'a> {
     pub(crate) airglow: &'a Part,
     pub(crate) moon: Option<MoonInputs<'a>>,
     pub(crate) clouds: Option<CloudInputs<'a>>,
+    /// None where nothing stands on the sphere.
+    pub(crate) ground: Option<&'a Groundscape>,
 }
 
 /// The clouds as the pass reads them.
 #[derive(Clone, Copy)]
 pub(crate) struct CloudInputs<'a> {
     pub(crate) scape: &'a Cloudscape,
-    /// Of the whole frame.
-    pub(crate) frame_px: UVec2,
     /// None where a ray is followed before each pixel.
     pub(crate) dome: Option<&'a DomeView>,
 }
@@ -101,7 +107,28 @@ impl SkyInputs<'_> {
         let clouds = self
             .clouds
             .map(|c| (c.scape.fingerprint(), c.dome.map(DomeView::uniform)));
-        Fingerprint::of(("sky", self.plan, parts, tables, self.airglow, moon, clouds))
+        let ground = self.ground.map(Groundscape::fingerprint);
+        Fingerprint::of((
+            ("sky", self.plan, parts, tables),
+            (self.airglow, moon, clouds, ground),
+        ))
+    }
+
+    /// What the ground's light is made of.
+    fn light(&self) -> LightInputs<'_> {
+        LightInputs {
+            air: self.air,
+            view: self.view,
+            observer: self.observer,
+            plan: self.plan,
+            transmittance: self.transmittance,
+            irradiance: self.irradiance,
+            source: self.source,
+            airglow: self.airglow,
+            moon_view: self.moon.filter(|moon| moon.lights).map(|moon| moon.view),
+            clouds: self.clouds.map(|c| c.scape),
+            followed: self.clouds.is_some_and(|c| c.dome.is_none()),
+        }
     }
 }
 
@@ -111,18 +138,19 @@ impl Sky {
             kernels: Variants::new(&shader::SKY),
             clouds: CloudView::new(),
             clouds_light: CloudViewLight::new(),
+            ground: GroundTiles::new(),
             lattices: [Lattice::default(), Lattice::default()],
         }
     }
 
-    /// Writes one tile. Gives the table of its clouds where rays were followed for it.
+    /// Writes one tile. Gives the table of its clouds where rays were followed for it, and the light of its ground.
     pub(crate) fn run(
         &mut self,
         recorder: &mut Recorder<'_>,
         inputs: SkyInputs<'_>,
         tile: TileUniform,
         to: SkyTo<'_>,
-    ) -> Option<Table> {
+    ) -> (Option<Table>, Option<wgpu::Buffer>) {
         let gpu = recorder.gpu;
         // A buffer that a variant does not write must still be bound, and bound once.
         let unused = || gpu.buffer("unused", 16, wgpu::BufferUsages::STORAGE);
@@ -139,11 +167,17 @@ impl Sky {
         let settings = settings.upload(gpu, "tone");
         let projection = inputs.plan.projection;
         let dome = inputs.clouds.and_then(|c| c.dome);
+        let ground = inputs.ground.map(|scape| {
+            let looks = Looks::Tile(inputs.camera, projection, tile, inputs.frame_px);
+            self.ground.run(recorder, scape, inputs.light(), looks)
+        });
         let clouds = inputs.clouds.filter(|_| dome.is_none()).map(|c| {
             let camera = (inputs.camera, projection);
-            let tile = (tile, c.frame_px);
-            let nodes = self.clouds.run(recorder, c.scape, camera, tile);
-            self.clouds_light.run(recorder, c.scape, camera, tile, &nodes)
+            let tile = (tile, inputs.frame_px);
+            let before = inputs.ground.zip(ground.as_ref());
+            let nodes = self.clouds.run(recorder, c.scape, camera, tile, before);
+            self.clouds_light
+                .run(recorder, c.scape, camera, tile, (&nodes, ground.as_ref()))
         });
         let (shade, cloud_frame) = inputs.clouds.map_or_else(
             || (Part::new(&ShadeUniform::default()), CloudFrameUniform::default()),
@@ -214,7 +248,8 @@ impl Sky {
         ];
         let dome_uniform = dome.map_or_else(|| Part::new(&DomeUniform::default()), DomeView::uniform);
         let dome_uniform = dome_uniform.upload(gpu, "dome");
-        let (pages, seen) = dome.map_or((&nowhere, &nowhere), |d| (&d.pages, &d.seen));
+        let (pages, seen) = dome.map_or((&nowhere, &inputs.transmittance.view), |d| (&d.pages, &d.seen));
+        let lit_ground = ground.as_ref().unwrap_or(&nowhere);
         let flag = |on: bool| f64::from(u8::from(on));
         let mut constants = vec![
             ("METHOD", inputs.plan.method_code()),
@@ -224,6 +259,7 @@ impl Sky {
             ("MOONLIGHT", flag(moon_sky_view.is_some())),
             ("CLOUDS", flag(inputs.clouds.is_some())),
             ("DOME", flag(dome.is_some())),
+            ("GROUND", flag(ground.is_some())),
         ];
         // Moonlight and rays of their own change from pixel to pixel.
         let span = if inputs.plan.method == Method::Lut && moon_sky_view.is_none() {
@@ -252,7 +288,8 @@ impl Sky {
                 .chain([
                     Bind::Buffer(&dome_uniform),
                     Bind::Buffer(pages),
-                    Bind::Buffer(seen),
+                    Bind::Table(seen),
+                    Bind::Buffer(lit_ground),
                 ])
                 .collect();
             recorder.dispatch(kernel, &all, [threads.x, threads.y, 1]);
@@ -270,7 +307,7 @@ impl Sky {
             };
             stage(3.0, grain, [lattice, &other], blocks(tile, grain));
         }
-        clouds
+        (clouds, ground)
     }
 }
 

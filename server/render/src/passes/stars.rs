@@ -49,6 +49,8 @@ pub(crate) struct StarsInputs<'a> {
     pub(crate) view: &'a Part,
     pub(crate) transmittance: &'a Table,
     pub(crate) clouds: Option<CloudsSeen<'a>>,
+    /// What stands on the ground before each pixel.
+    pub(crate) lit_ground: Option<&'a wgpu::Buffer>,
 }
 
 impl StarsPass {
@@ -126,7 +128,7 @@ impl StarsPass {
         let dome_uniform = uniform.upload(gpu, "dome");
         // What a variant does not read must still be bound.
         let nowhere = gpu.buffer("unused", 16, wgpu::BufferUsages::STORAGE);
-        let (pages, seen) = dome.map_or((&nowhere, &nowhere), |d| (&d.pages, &d.seen));
+        let (pages, seen) = dome.map_or((&nowhere, &inputs.transmittance.view), |d| (&d.pages, &d.seen));
         let binds = [
             Bind::Buffer(&air),
             Bind::Buffer(&view),
@@ -138,12 +140,14 @@ impl StarsPass {
             Bind::Table(&table.unwrap_or(inputs.transmittance).view),
             Bind::Buffer(&dome_uniform),
             Bind::Buffer(pages),
-            Bind::Buffer(seen),
+            Bind::Table(seen),
+            Bind::Buffer(inputs.lit_ground.unwrap_or(&nowhere)),
         ];
         let flag = |on: bool| f64::from(u8::from(on));
         let constants = [
             ("CLOUDS", flag(inputs.clouds.is_some())),
             ("DOME", flag(dome.is_some())),
+            ("GROUND", flag(inputs.lit_ground.is_some())),
         ];
         let kernel = self.kernels.get(gpu, &constants);
         recorder.dispatch(kernel, &binds, [threads, 1, 1]);

@@ -11,8 +11,10 @@
 mod aerial;
 mod cloud;
 mod depth;
+mod dome;
 mod furnace;
 mod geometry;
+mod ground;
 mod half_tables;
 mod layout;
 mod lens;

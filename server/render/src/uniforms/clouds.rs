@@ -119,6 +119,7 @@ pub(crate) struct DomeUniform {
     pub(crate) cells: u32,
     pub(crate) sun_left: f32,
     pub(crate) moon_left: f32,
+    pub(crate) under_clouds: u32,
 }
 
 /// `CloudFrame` of `lib/sky_light.wgsl`.

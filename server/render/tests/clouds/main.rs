@@ -8,6 +8,7 @@
 )]
 
 mod clear;
+mod horizon;
 mod layers;
 mod light;
 mod maps;

@@ -22,6 +22,8 @@ fn moonlit(clouds: Value) -> Scene {
     whole(json!({
         "camera": {"projection": {"kind": "equirectangular"}},
         "stars": null,
+        // Found at every second pixel, 15° apart here.
+        "shafts": null,
         "sun": {"position": {"azimuth_deg": 280, "elevation_deg": -40}},
         "moon": {"position": {"azimuth_deg": 100, "elevation_deg": 40}, "disc": false},
         "clouds": clouds,

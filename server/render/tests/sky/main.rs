@@ -13,6 +13,7 @@ mod constants;
 mod disc;
 mod display;
 mod frames;
+mod ground;
 mod haze;
 mod horizon;
 mod lens;

@@ -2,6 +2,7 @@
 
 mod air;
 mod genera;
+mod ground;
 mod published;
 mod weather;
 
@@ -42,7 +43,7 @@ pub fn preset(name: &str) -> Option<&'static Preset> {
 
 static PRESETS: LazyLock<Vec<Preset>> = LazyLock::new(|| {
     let [air, weather, genera] = [air::presets(), weather::presets(), genera::presets()];
-    [air, weather, genera, published::presets()].concat()
+    [air, ground::presets(), weather, genera, published::presets()].concat()
 });
 
 fn looking(azimuth_deg: f64, elevation_deg: f64) -> Camera {

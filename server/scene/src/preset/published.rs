@@ -48,6 +48,7 @@ fn complutense() -> Scene {
         planet: Planet {
             radius_m: 6_371_000.0,
             ground_albedo: [0.0; 3],
+            ..Planet::default()
         },
         atmosphere: Some(Atmosphere {
             orders: Orders::Single,

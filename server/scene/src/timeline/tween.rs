@@ -45,6 +45,8 @@ pub(super) fn tween(name: &str, values: Four<&Value>, moment: &Moment) -> Value 
     match (name, from, to) {
         ("weather_map", ..) => weather::between(from, to, moment),
         ("gradients", ..) => mixed(from, to, moment.share()),
+        // Numbers between two seeds are yet others; those between two sizes are no powers of two.
+        ("seed" | "size_px", ..) => switched(values, moment),
         ("direction" | "position", ..) => direction(values, moment),
         (_, Value::Number(_), Value::Number(_)) => number(name, values, moment),
         (_, Value::Array(_), Value::Array(_)) => array(name, values, moment),

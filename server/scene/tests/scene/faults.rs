@@ -41,7 +41,7 @@ fn unknown_field() {
     check(
         json!({"rainbow": {"order": 2}}),
         "/rainbow",
-        "unknown field `rainbow`; the document has the fields `atmosphere`, `camera`, `clouds`, `display`, `haze`, `moon`, `planet`, `stars`, `sun`, `time_s`",
+        "unknown field `rainbow`; the document has the fields `atmosphere`, `camera`, `clouds`, `display`, `haze`, `moon`, `planet`, `shafts`, `stars`, `sun`, `terrain`, `time_s`",
     );
     let odd = problem(&json!({"planet": {"a/b~c": 1}}));
     assert_eq!((odd.pointer.as_str(), odd.value), ("/planet/a~1b~0c", json!(1)));
@@ -82,7 +82,7 @@ fn wrong_type() {
     check(
         json!([]),
         "",
-        "the document must be an object with the fields `atmosphere`, `camera`, `clouds`, `display`, `haze`, `moon`, `planet`, `stars`, `sun`, `time_s`, but is []",
+        "the document must be an object with the fields `atmosphere`, `camera`, `clouds`, `display`, `haze`, `moon`, `planet`, `shafts`, `stars`, `sun`, `terrain`, `time_s`, but is []",
     );
     assert_eq!(problem(&json!({"camera": null})).pointer, "/camera");
 }

@@ -17,6 +17,8 @@ mod properties;
 mod schemas;
 mod strategies;
 mod sun;
+mod terrain;
 mod timeline;
+mod timeline_ground;
 mod timeline_random;
 mod timeline_sky;

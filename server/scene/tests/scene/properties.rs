@@ -11,7 +11,7 @@ static SCHEMA: LazyLock<Validator> =
     LazyLock::new(|| jsonschema::draft202012::new(&scene_schema()).expect("a derived schema is valid"));
 
 /// Where the reader refuses what the schema lets pass.
-const BEYOND_THE_SCHEMA: [&str; 14] = [
+const BEYOND_THE_SCHEMA: [&str; 16] = [
     "/camera/direction",
     "/camera/position_m",
     "/camera/projection/fov_deg",
@@ -25,6 +25,8 @@ const BEYOND_THE_SCHEMA: [&str; 14] = [
     "/haze/top_m",
     "/sun/position",
     "/sun/position/time",
+    "/terrain/mountains",
+    "/terrain/shadow/size_px",
     "/time_s",
 ];
 

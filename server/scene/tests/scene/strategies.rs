@@ -198,12 +198,14 @@ prop_compose! {
         sun in sun(),
         (moon, stars) in (option::of(crate::night::moon()), option::of(crate::night::stars())),
         radius_m in 1e5..=1e8,
-        ground_albedo in prop::array::uniform3(0.0..=1.0),
+        (ground_albedo, surface) in (prop::array::uniform3(0.0..=1.0), crate::terrain::sphere_surface()),
         atmosphere in option::of(atmosphere()),
         haze in option::of(haze()),
         clouds in option::of(crate::clouds::clouds()),
+        (terrain, shafts) in (option::of(crate::terrain::terrain()), option::of(crate::terrain::shafts())),
         display in display(),
     ) -> Scene {
-        Scene { time_s, camera, sun, moon, stars, planet: Planet { radius_m, ground_albedo }, atmosphere, clouds, haze, display }
+        let planet = Planet { radius_m, ground_albedo, surface };
+        Scene { time_s, camera, sun, moon, stars, planet, atmosphere, clouds, haze, terrain, shafts, display }
     }
 }

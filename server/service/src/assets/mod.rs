@@ -46,7 +46,7 @@ pub(crate) async fn list_all(State(service): State<Service>) -> Result<Json<List
 
 /// The assets of one kind.
 #[utoipa::path(get, path = "/v1/assets/{kind}", tag = "assets",
-    params(("kind" = String, Path, description = "`weather-maps`")),
+    params(("kind" = String, Path, description = "`weather-maps`, `heightfields` or `meshes`")),
     responses(
         (status = 200, description = "In the order of their names", content_type = "application/json",
             body = ref("#/components/schemas/Assets")),
@@ -62,12 +62,14 @@ pub(crate) async fn list_kind(
 /// An asset, byte by byte as it was sent.
 #[utoipa::path(get, path = "/v1/assets/{kind}/{name}", tag = "assets",
     params(
-        ("kind" = String, Path, description = "`weather-maps`"),
+        ("kind" = String, Path, description = "`weather-maps`, `heightfields` or `meshes`"),
         ("name" = String, Path, description = "As the list names it"),
         ("If-None-Match" = Option<String>, Header, description = "Tags of the copies one has"),
         ("If-Match" = Option<String>, Header, description = "Tags of what one wants and nothing else")),
     responses(
-        (status = 200, description = "The file", content_type = "image/png", body = String,
+        (status = 200, description = "The file", content(
+                (String = "image/png"), (String = "image/tiff"), (String = "application/octet-stream"),
+                (String = "model/gltf-binary"), (String = "application/zip")),
             headers(("ETag" = String, description = "SHA-256 of the file"))),
         (status = 304, description = "The copy one has is the one"),
         Missing, Conditional, Refusals, Busy))]
@@ -89,21 +91,24 @@ pub(crate) async fn get_asset(
     if !conditions.none_match_holds(Some(&asset.digest)) {
         return Ok((StatusCode::NOT_MODIFIED, known).into_response());
     }
-    Ok((known, [(header::CONTENT_TYPE, kind.media_type())], file).into_response())
+    Ok((known, [(header::CONTENT_TYPE, asset.form.media_type())], file).into_response())
 }
 
 /// Stores an asset, in place of the one that has the name.
 ///
-/// A weather map is a PNG of up to 4096 x 4096 pixels, 8 or 16 bit, grey, RGB, RGBA or palette; what the file holds
-/// decides, not `Content-Type`. `If-None-Match: *` stores only where there is nothing yet, `If-Match` only in place
+/// A weather map is a PNG of up to 4096 x 4096 pixels, 8 or 16 bit, grey, RGB, RGBA or palette. A heightfield is a grey
+/// PNG of 16 bits, a GeoTIFF or an NPY of up to 4096 x 4096 heights. A mesh is a `.glb`, or a `.zip` of an OBJ with its
+/// MTL and textures, of up to a million triangles. What the file holds decides, not `Content-Type`. `If-None-Match: *` stores only where there is nothing yet, `If-Match` only in place
 /// of what one has seen.
 #[utoipa::path(put, path = "/v1/assets/{kind}/{name}", tag = "assets",
     params(
-        ("kind" = String, Path, description = "`weather-maps`"),
+        ("kind" = String, Path, description = "`weather-maps`, `heightfields` or `meshes`"),
         ("name" = String, Path, description = "Up to 64 of a-z, 0-9, _ and -, the first a letter or a digit"),
         ("If-Match" = Option<String>, Header, description = "Tags of what may be replaced"),
         ("If-None-Match" = Option<String>, Header, description = "`*`: nothing may be replaced")),
-    request_body(content = String, description = "The file", content_type = "image/png"),
+    request_body(description = "The file", content(
+        (String = "image/png"), (String = "image/tiff"), (String = "application/octet-stream"),
+        (String = "model/gltf-binary"), (String = "application/zip"))),
     responses(
         (status = 201, description = "It is stored", content_type = "application/json",
             body = ref("#/components/schemas/Asset"),
@@ -152,7 +157,7 @@ pub(crate) async fn put_asset(
 /// Removes an asset. Scenes that name it are refused from then on.
 #[utoipa::path(delete, path = "/v1/assets/{kind}/{name}", tag = "assets",
     params(
-        ("kind" = String, Path, description = "`weather-maps`"),
+        ("kind" = String, Path, description = "`weather-maps`, `heightfields` or `meshes`"),
         ("name" = String, Path, description = "As the list names it"),
         ("If-Match" = Option<String>, Header, description = "Tags of what may be removed")),
     responses((status = 204, description = "It is gone"), Missing, Conditional, Refusals, Busy))]

@@ -73,7 +73,7 @@ impl Service {
 
     /// Everything that a scene takes from the store.
     pub(crate) async fn assets_of(&self, scene: &Scene) -> Result<Arc<SceneAssets>, Error> {
-        if scene.weather_map_references().is_empty() {
+        if scene.asset_references().is_empty() {
             return Ok(Arc::default());
         }
         let (store, scene) = (self.assets.store.clone(), scene.clone());

@@ -12,7 +12,7 @@ use std::{collections::BTreeMap, sync::Arc, time::Duration};
 use tokio::sync::OwnedSemaphorePermit;
 use welkin_encode::{Options, encode, output_for};
 use welkin_scene::{
-    SceneAssets,
+    HeightGrid, MeshModel, SceneAssets, WeatherPicture,
     frame::{Format, FrameRequest},
     renderer::{FrameFacts, FrameOrder, PassTime, Priority},
 };
@@ -66,16 +66,18 @@ impl Asked {
         #[derive(Serialize)]
         struct Canonical<'a> {
             request: &'a FrameRequest,
-            weather_maps: BTreeMap<&'a str, String>,
+            assets: [BTreeMap<&'a str, String>; 3],
             build: &'a str,
             device: [&'a str; 3],
         }
         let device = service.renderer.device();
         let canonical = Canonical {
             request: &request,
-            weather_maps: (assets.weather_maps.iter())
-                .map(|(name, picture)| (name.as_str(), picture.digest_hex()))
-                .collect(),
+            assets: [
+                digests(&assets.weather_maps, WeatherPicture::digest_hex),
+                digests(&assets.heightfields, HeightGrid::digest_hex),
+                digests(&assets.meshes, MeshModel::digest_hex),
+            ],
             build: &service.settings.build,
             device: [&device.adapter, &device.backend, &device.driver],
         };
@@ -93,6 +95,14 @@ impl Asked {
         let hex: String = self.key[..16].iter().map(|byte| format!("{byte:02x}")).collect();
         format!("\"{hex}\"")
     }
+}
+
+/// The content of each asset by its name.
+fn digests<T>(assets: &BTreeMap<String, Arc<T>>, hex: impl Fn(&T) -> String) -> BTreeMap<&str, String> {
+    assets
+        .iter()
+        .map(|(name, asset)| (name.as_str(), hex(asset)))
+        .collect()
 }
 
 impl Service {

@@ -142,7 +142,7 @@ impl View {
     pub(crate) async fn with_assets(self, service: &Service) -> Result<Self, Error> {
         let assets = service.assets_of(&self.scene).await;
         let assets = assets.map_err(|e| e.within("/scene"))?;
-        let assets = Arc::new(assets.without_pixels());
+        let assets = Arc::new(assets.without_content());
         Ok(Self { assets, ..self })
     }
 }

@@ -25,6 +25,30 @@ pub(crate) fn weather_map(grey: u8) -> Vec<u8> {
     file
 }
 
+/// A binary glTF of one triangle, `size` wide and high.
+pub(crate) fn triangle(size: f32) -> Vec<u8> {
+    let document = r#"{"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0}],
+        "meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],"buffers":[{"byteLength":36}],
+        "bufferViews":[{"buffer":0,"byteLength":36}],"accessors":[{"bufferView":0,"componentType":5126,"count":3,
+        "type":"VEC3","min":[0,0,0],"max":[9,9,0]}]}"#;
+    let document = format!("{document:<width$}", width = document.len().next_multiple_of(4));
+    let corners = [0.0, 0.0, 0.0, size, 0.0, 0.0, 0.0, size, 0.0_f32];
+    let blob: Vec<u8> = corners.iter().flat_map(|number| number.to_le_bytes()).collect();
+    let length = |bytes: usize| u32::try_from(bytes).unwrap().to_le_bytes();
+    [
+        b"glTF".as_slice(),
+        &2_u32.to_le_bytes(),
+        &length(28 + document.len() + blob.len()),
+        &length(document.len()),
+        b"JSON",
+        document.as_bytes(),
+        &length(blob.len()),
+        b"BIN\0",
+        &blob,
+    ]
+    .concat()
+}
+
 /// A folder for assets; it goes with the test.
 pub(crate) struct Shelf {
     pub(crate) folder: TempDir,
@@ -45,12 +69,14 @@ impl Shelf {
         Store::open(self.folder.path(), self.limits).unwrap()
     }
 
-    /// Puts a file past the service.
+    /// Puts a weather map past the service.
     pub(crate) fn put(&self, name: &str, file: &[u8]) {
+        self.put_as(Kind::WeatherMaps, name, file);
+    }
+
+    pub(crate) fn put_as(&self, kind: Kind, name: &str, file: &[u8]) {
         let name = Name::new(name).unwrap();
-        self.store()
-            .put(Kind::WeatherMaps, &name, file, |_| true)
-            .unwrap();
+        self.store().put(kind, &name, file, |_| true).unwrap();
     }
 
     pub(crate) fn service(&self, fake: &Arc<Fake>, settings: Settings) -> Service {

@@ -147,8 +147,12 @@ async fn what_is_wrong_with_a_file_is_told() {
     wide[16..20].copy_from_slice(&5000_u32.to_be_bytes());
     let cut = weather_map(1)[..bytes as usize - 5].to_vec();
     for (file, status, told) in [
-        (b"\xff\xd8\xff no PNG".to_vec(), 415, "not a PNG"),
-        (Vec::new(), 415, "not a PNG"),
+        (
+            b"\xff\xd8\xff no PNG".to_vec(),
+            415,
+            "not a weather map: send a PNG",
+        ),
+        (Vec::new(), 415, "not a weather map: send a PNG"),
         (cut, 422, "cut short"),
         (wide, 422, "damaged"),
         (long, 413, "bytes at most"),

@@ -1,7 +1,7 @@
 //! Scenes that name weather maps: frames, probes and live views of them.
 
 use crate::{
-    asset_files::{MAPS, Shelf, delete, put, send, weather_map},
+    asset_files::{MAPS, Shelf, delete, put, send, triangle, weather_map},
     client::{Viewer, post, server_of},
     fake::Fake,
 };
@@ -46,6 +46,48 @@ async fn the_renderer_gets_the_picture_and_the_tag_follows_its_content() {
     // What is put into the folder by others is seen as well.
     shelf.put("front", &weather_map(1));
     assert_eq!(tag().await, first);
+}
+
+/// Heights and triangles as weather maps: put, listed, named, replaced.
+#[tokio::test]
+async fn terrain_from_files_reaches_the_renderer() {
+    let (shelf, fake) = (Shelf::new(), Fake::new());
+    let app = shelf.router(&fake);
+    let upload = async |path: &str, file: Vec<u8>| send(&app, "PUT", path, &[], file).await;
+    let frame = |kind: &str, name: &str| {
+        let scene = json!({"terrain": {"kind": kind, "name": name}});
+        json!({"scene": scene, "width_px": 32, "height_px": 16}).to_string()
+    };
+    for (path, kind, files) in [
+        (
+            "/v1/assets/heightfields/it",
+            "heightfield",
+            [weather_map(1), weather_map(2)],
+        ),
+        ("/v1/assets/meshes/it", "mesh", [triangle(1.0), triangle(2.0)]),
+    ] {
+        let missing = post(&app, "/v1/frames", frame(kind, "it")).await.problem(422);
+        assert_eq!(missing["pointer"], "/scene/terrain/name");
+        let mut tags = Vec::new();
+        for file in &files {
+            assert!(upload(path, file.clone()).await.status.is_success());
+            let answer = post(&app, "/v1/frames", frame(kind, "it")).await;
+            assert_eq!(answer.status, 200);
+            tags.push(answer.header("etag").to_owned());
+        }
+        assert_ne!(tags[0], tags[1], "another file, another frame");
+        let kept = crate::client::get(&app, path).await;
+        assert_eq!(&kept.body[..], &files[1][..]);
+    }
+    let orders = fake.orders.lock().unwrap();
+    let grids = orders
+        .iter()
+        .filter_map(|order| order.assets.heightfields.get("it"));
+    let lowest: Vec<_> = grids.map(|grid| grid.heights[0]).collect();
+    assert_eq!(lowest, [1.0 / 255.0, 2.0 / 255.0]);
+    let meshes = orders.iter().filter_map(|order| order.assets.meshes.get("it"));
+    let corners: Vec<_> = meshes.map(|mesh| mesh.positions[1]).collect();
+    assert_eq!(corners, [[1.0, 0.0, 0.0], [2.0, 0.0, 0.0]]);
 }
 
 #[tokio::test]

@@ -1,12 +1,13 @@
 //! The OpenAPI document describes what is there.
 
 use crate::{
-    asset_files::{Shelf, weather_map},
+    asset_files::{Shelf, triangle, weather_map},
     client::{call, get, router},
     fake::Fake,
 };
 use axum::{body::Body, http::Request};
 use serde_json::Value;
+use welkin_assets::Kind;
 
 /// The routes of the contract. `/docs` is a page about the others.
 const ROUTES: [(&str, &[&str]); 24] = [
@@ -119,6 +120,8 @@ async fn hand_written_schemas_have_the_members_that_are_sent() {
     let document = document().await;
     let shelf = Shelf::new();
     shelf.put("map", &weather_map(1));
+    shelf.put_as(Kind::Heightfields, "hills", &weather_map(1));
+    shelf.put_as(Kind::Meshes, "triangle", &triangle(1.0));
     let app = shelf.router(&Fake::new());
     let names = |value: &Value| {
         value
@@ -132,7 +135,13 @@ async fn hand_written_schemas_have_the_members_that_are_sent() {
     assert_eq!(names(&get(&app, "/v1/device").await.json()), described("Device"));
     let listing = get(&app, "/v1/assets").await.json();
     assert_eq!(names(&listing), described("Assets"));
-    assert_eq!(names(&listing["assets"][0]), described("Asset"));
+    let schema = &document["components"]["schemas"]["Asset"];
+    for (i, kind) in Kind::ALL.into_iter().enumerate() {
+        let (asset, one) = (&listing["assets"][i], &schema["oneOf"][i]);
+        assert_eq!(asset["kind"], kind.name());
+        assert_eq!(names(asset), names(&one["properties"]));
+        assert!(jsonschema::is_valid(schema, asset), "{asset}");
+    }
     for part in ["used", "limits"] {
         let described = &document["components"]["schemas"]["Assets"]["properties"][part]["properties"];
         assert_eq!(names(&listing[part]), names(described));

@@ -25,6 +25,8 @@ pub(super) fn look(gpu: &Gpu, scene: &Scene, assets: &SceneAssets, size_px: UVec
     let light = CloudLight {
         stand: tables.stand,
         view: &view,
+        clouded: true,
+        shafted: false,
     };
     let mut recorder = Recorder::new(gpu);
     let scape = passes.scape(&mut recorder, &tables, (&sky, textures), light, Quality::Final);
@@ -36,8 +38,8 @@ pub(super) fn look(gpu: &Gpu, scene: &Scene, assets: &SceneAssets, size_px: UVec
     };
     let camera = (&camera, tables.plan.projection);
     let tile = (tile, size_px);
-    let nodes = CloudView::new().run(&mut recorder, &scape, camera, tile);
-    let seen = CloudViewLight::new().run(&mut recorder, &scape, camera, tile, &nodes);
+    let nodes = CloudView::new().run(&mut recorder, &scape, camera, tile, None);
+    let seen = CloudViewLight::new().run(&mut recorder, &scape, camera, tile, (&nodes, None));
     recorder.finish(&[], |_| ()).unwrap();
     read_table(gpu, &seen.view, 0)
 }

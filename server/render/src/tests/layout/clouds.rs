@@ -182,7 +182,8 @@ fn shade_shadow_dome_and_frame() {
         DomeUniform {
             cells: u32,
             sun_left: f32,
-            moon_left: f32
+            moon_left: f32,
+            under_clouds: u32,
         }
     );
     let shaders = [
