@@ -2,8 +2,10 @@
 #![allow(clippy::unwrap_used, reason = "tests fail by panicking")]
 
 use serde_json::{Value, json};
+use std::sync::{Arc, Mutex};
 use std::{
     fs,
+    io::{BufRead, BufReader, Read, Write},
     net::{TcpListener, TcpStream},
     path::Path,
     process::{Child, Command, Output, Stdio},
@@ -222,4 +224,74 @@ fn what_the_server_would_refuse_is_told_with_its_place() {
         "{}",
         text(&nobody.stderr)
     );
+}
+
+/// First lines and bodies of requests.
+type Taken = Arc<Mutex<Vec<(String, Vec<u8>)>>>;
+
+/// A collector of OpenTelemetry that takes what it is sent, and its address.
+fn collector() -> (String, Taken) {
+    let listener = TcpListener::bind("127.0.0.1:0").unwrap();
+    let address = format!("http://{}", listener.local_addr().unwrap());
+    let taken = Taken::default();
+    let into = Arc::clone(&taken);
+    std::thread::spawn(move || {
+        for stream in listener.incoming() {
+            let mut stream = BufReader::new(stream.unwrap());
+            let (mut first, mut length) = (String::new(), 0);
+            stream.read_line(&mut first).unwrap();
+            loop {
+                let mut line = String::new();
+                if stream.read_line(&mut line).unwrap() == 0 || line == "\r\n" {
+                    break;
+                }
+                if let Some(value) = line.to_ascii_lowercase().strip_prefix("content-length:") {
+                    length = value.trim().parse().unwrap();
+                }
+            }
+            let mut body = vec![0; length];
+            stream.read_exact(&mut body).unwrap();
+            let answer = "HTTP/1.1 200 OK\r\nContent-Length: 0\r\nConnection: close\r\n\r\n";
+            stream.get_mut().write_all(answer.as_bytes()).unwrap();
+            into.lock().unwrap().push((first, body));
+        }
+    });
+    (address, taken)
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_collector_is_told_of_frames_and_of_their_stages() {
+    let place = Place::new();
+    let (address, taken) = collector();
+    let mut server = place.serve(&["--otlp", &address, "--log", "info"]);
+    let sent = place.submit(&small(2), &["--wait"]);
+    assert!(sent.status.success(), "{}", text(&sent.stderr));
+    // The last spans are sent when the program ends as it should.
+    let stopped = Command::new("kill")
+        .arg(server.0.id().to_string())
+        .status()
+        .unwrap();
+    assert!(stopped.success() && server.0.wait().unwrap().success());
+    let taken = taken.lock().unwrap();
+    assert!(
+        taken.iter().all(|(line, _)| line.starts_with("POST /v1/traces ")),
+        "{taken:?}"
+    );
+    let told: Vec<u8> = taken.iter().flat_map(|(_, body)| body.clone()).collect();
+    let told = String::from_utf8_lossy(&told);
+    for name in [
+        "welkin",
+        "service.version",
+        "task",
+        "render",
+        "encode",
+        "store",
+        "/v1/jobs",
+        &text(&sent.stdout)[..26],
+    ] {
+        assert!(told.contains(name), "{name}");
+    }
+    let wrong = place.welkin(&["serve", "--otlp", "collector"]).output().unwrap();
+    assert_eq!(wrong.status.code(), Some(2), "{}", text(&wrong.stderr));
 }

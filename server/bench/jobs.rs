@@ -42,7 +42,7 @@ impl Case for JobCase {
     fn limits(&self, _setup: &Setup, work: &str) -> Limits {
         Limits {
             error: (work == "frames").then_some(OVERHEAD),
-            flip: None,
+            ..Limits::default()
         }
     }
 

@@ -33,7 +33,13 @@ use stopwatch::Spent;
 use welkin_scene::renderer::{DeviceInfo, PassTime};
 
 /// All cases.
-pub(crate) static CASES: [&dyn Case; 5] = [&sky::Sky, &air::Air, &clouds::CloudCase, &ground::Ground, &jobs::JobCase];
+pub(crate) static CASES: [&dyn Case; 5] = [
+    &sky::Sky,
+    &air::Air,
+    &clouds::CloudCase,
+    &ground::Ground,
+    &jobs::JobCase,
+];
 
 /// Something to measure.
 pub(crate) trait Case: Sync {

@@ -20,7 +20,7 @@ pub(crate) struct Args {
 /// Where the address is taken or there is no device.
 pub(crate) fn run(args: &Args, config: Option<&Path>) -> Result<(), Failure> {
     let settings = Settings::load(config, &args.flags)?;
-    logging::start(&settings)?;
+    let _telemetry = logging::start(&settings)?;
     let runtime = tokio::runtime::Runtime::new().map_err(Failure::file("starting"))?;
     let served = runtime.block_on(until_stopped(&settings));
     // An encoder in the middle of a file for nobody is not waited for.

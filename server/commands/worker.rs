@@ -3,7 +3,7 @@
 use super::{Failure, assets, logging, serve::stopped, version::build};
 use crate::settings::{Settings, WorkerFlags};
 use std::{path::Path, sync::Arc, time::Duration};
-use welkin_jobs::{Jobs, Queue, Store, Worker, WorkerSettings};
+use welkin_jobs::{Jobs, Limits, Queue, Store, Worker, WorkerSettings};
 use welkin_service::{listen, tell_operations};
 
 /// Arguments of `welkin worker`.
@@ -22,7 +22,7 @@ pub(crate) struct Args {
 /// Where queue, store or device cannot be opened.
 pub(crate) fn run(args: &Args, config: Option<&Path>) -> Result<(), Failure> {
     let settings = Settings::load(config, &args.flags)?;
-    logging::start(&settings)?;
+    let _telemetry = logging::start(&settings)?;
     let runtime = tokio::runtime::Runtime::new().map_err(Failure::file("starting"))?;
     let worked = runtime.block_on(until_stopped(&settings, args.metrics.as_deref()));
     // A file that is being put into the store is not waited for; another worker makes it anew.
@@ -91,7 +91,11 @@ pub(crate) async fn open_with(
         std::fs::create_dir_all(folder).map_err(making)?;
     }
     let store = Store::open(&store)?;
-    Ok(Jobs::new(Queue::open(&queue).await?, store, assets))
+    let limits = Limits {
+        store_bytes: settings.store_bytes,
+        max_frame_pixels: settings.max_frame_pixels,
+    };
+    Ok(Jobs::new(Queue::open(&queue).await?, store, assets).with_limits(limits))
 }
 
 /// How a worker works, as settings say.

@@ -36,17 +36,19 @@ pub(crate) struct Settings {
     pub(crate) store: Option<String>,
     pub(crate) job_frames: usize,
     pub(crate) heartbeat_s: u32,
+    pub(crate) store_bytes: u64,
     pub(crate) listen: String,
     pub(crate) cache_bytes: u64,
     pub(crate) frame_memory_bytes: u64,
     pub(crate) max_frame_pixels: u64,
     pub(crate) max_viewers: u32,
+    pub(crate) otlp: Option<String>,
     pub(crate) log: String,
     pub(crate) log_format: LogFormat,
 }
 
 /// Names of the settings, as the environment has them after `WELKIN_` (in capitals).
-const NAMES: [&str; 20] = [
+const NAMES: [&str; 22] = [
     "adapter",
     "require_gpu",
     "cache_dir",
@@ -60,11 +62,13 @@ const NAMES: [&str; 20] = [
     "store",
     "job_frames",
     "heartbeat_s",
+    "store_bytes",
     "listen",
     "cache_bytes",
     "frame_memory_bytes",
     "max_frame_pixels",
     "max_viewers",
+    "otlp",
     "log",
     "log_format",
 ];
@@ -98,11 +102,13 @@ impl Default for Settings {
             store: None,
             job_frames: 2,
             heartbeat_s: 5,
+            store_bytes: 68_719_476_736,
             listen: "127.0.0.1:8080".into(),
             cache_bytes: service.cache_bytes,
             frame_memory_bytes: service.frame_memory_bytes,
             max_frame_pixels: service.max_frame_pixels,
             max_viewers: service.max_viewers,
+            otlp: None,
             log: "info".into(),
             log_format: LogFormat::Text,
         }

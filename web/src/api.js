@@ -38,7 +38,6 @@ export async function stopJob(id) {
   if (!response.ok) throw await failure(response);
 }
 
-const MAPS = 'v1/assets/weather-maps';
 const ASSETS = 'v1/assets';
 
 /** @typedef {import('./assets.js').Kind} Kind */

@@ -170,6 +170,7 @@ mod tests {
     fn tiles_come_back_as_one_picture_each_asked_for_once() {
         for (width_px, height_px, tile_px) in [(64, 32, 16), (50, 33, 16), (7, 5, 16), (48, 48, 48)] {
             let frame = sample::linear(width_px, height_px);
+            let (width_px, height_px) = (u32::from(width_px), u32::from(height_px));
             let Pixels::Linear(all) = &frame.pixels else {
                 unreachable!("made linear")
             };
@@ -194,12 +195,15 @@ mod tests {
             )
             .unwrap();
             let (width, height, samples) = decode_exr(file.get_ref()).unwrap();
-            assert_eq!((width as u32, height as u32), (width_px, height_px));
+            assert_eq!((width, height), (width_px as usize, height_px as usize));
             assert_eq!(&samples, all);
             let count = width_px.div_ceil(tile_px) * height_px.div_ceil(tile_px);
             assert_eq!(asked, (0..count).collect::<Vec<_>>());
             let meta = exr::meta::MetaData::read_from_buffered(file.get_ref().as_slice(), true).unwrap();
-            assert!(matches!(meta.headers[0].blocks, BlockDescription::Tiles(_)));
+            assert!(matches!(
+                meta.headers[0].blocks,
+                exr::meta::BlockDescription::Tiles(_)
+            ));
         }
     }
 

@@ -34,10 +34,8 @@ pub(crate) fn named_in(plan: &JobPlan, shelf: Option<&Store>) -> Result<BTreeSet
 }
 
 fn named_by(scene: &Scene) -> Result<Vec<(Kind, Name)>, JobError> {
-    let references = scene.weather_map_references();
-    let named = references
-        .iter()
-        .map(|r| Ok((Kind::WeatherMaps, Name::new(r.name)?)));
+    let references = scene.asset_references();
+    let named = references.iter().map(|r| Ok((r.kind.into(), Name::new(r.name)?)));
     named.collect()
 }
 

@@ -30,6 +30,18 @@ pub enum JobError {
         /// The job that it stands for.
         job: String,
     },
+    /// All jobs together would take more than they may.
+    #[error(
+        "the job may take {bytes} bytes, and jobs here have {taken} of {most}: remove old ones, or raise --store-bytes"
+    )]
+    Full {
+        /// What it may take.
+        bytes: u64,
+        /// What the others take.
+        taken: u64,
+        /// What all may take.
+        most: u64,
+    },
     /// The address of a queue or a store makes no sense.
     #[error("{0}")]
     Address(String),

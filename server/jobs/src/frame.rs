@@ -12,6 +12,7 @@ use tokio::{
     sync::{Semaphore, watch},
     time::{sleep, timeout},
 };
+use tracing::{Instrument, info_span};
 use welkin_encode::{Options, encode, file_extension, output_for};
 use welkin_scene::{
     JobPlan, ProbeRequest, SceneAssets,
@@ -83,7 +84,10 @@ impl Bench {
         let turn = self.device.acquire().await.map_err(|_| Trouble::Stopping)?;
         (self.calm)().await;
         let begun = Instant::now();
-        let frame = self.rendered(|| self.order(job, &planned, &assets)).await?;
+        let frame = self
+            .rendered(|| self.order(job, &planned, &assets))
+            .instrument(info_span!("render"))
+            .await?;
         let rendering = begun.elapsed();
         metrics::passes(&frame);
         metrics::stage("render", rendering);
@@ -101,7 +105,7 @@ impl Bench {
         let encoded = Arc::clone(&frame);
         let bytes =
             beside(move || encode(&encoded, format, &options).map_err(|e| JobError::Damaged(e.to_string())));
-        let bytes = Bytes::from(bytes.await?);
+        let bytes = Bytes::from(bytes.instrument(info_span!("encode")).await?);
         let encoding = begun.elapsed();
         metrics::stage("encode", encoding);
 
@@ -114,6 +118,7 @@ impl Bench {
                 .await
                 .map_err(Trouble::from)
         })
+        .instrument(info_span!("store"))
         .await?;
         let storing = begun.elapsed();
         metrics::stage("store", storing);

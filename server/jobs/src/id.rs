@@ -31,6 +31,11 @@ impl JobId {
         self.within(&format!("assets/{kind}/{name}"))
     }
 
+    /// The folder of assets.
+    pub(crate) fn assets(self) -> Path {
+        self.within("assets")
+    }
+
     fn within(self, name: &str) -> Path {
         Path::from(format!("jobs/{self}/{name}"))
     }
@@ -70,7 +75,7 @@ impl FromStr for JobId {
 /// A task of a job.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 #[serde(rename_all = "kebab-case")]
-pub(crate) enum Part {
+pub enum Part {
     /// One frame.
     Frame(u32),
     /// What is made of all frames.
@@ -89,11 +94,13 @@ impl Part {
 
 /// What the queue holds of a task.
 #[derive(Clone, Debug, serde::Serialize, serde::Deserialize)]
-pub(crate) struct Task {
-    pub(crate) job: String,
-    pub(crate) part: Part,
+pub struct Task {
+    /// The job's name.
+    pub job: String,
+    /// Which part of it.
+    pub part: Part,
     /// When it was put into the queue, milliseconds since 1970.
-    pub(crate) queued_ms: i64,
+    pub queued_ms: i64,
 }
 
 #[cfg(test)]

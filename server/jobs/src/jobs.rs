@@ -3,11 +3,13 @@
 use crate::{
     JobError, JobId, Queue, Store, assets,
     id::Part,
+    limits::{Limits, Weight, weigh},
     metrics,
-    queue::State,
+    queue::{Added, New, State, Summary},
     status::{FileInfo, JobStatus},
     store::ByteStream,
 };
+use moka::future::Cache;
 use std::{collections::BTreeSet, sync::Arc, time::Duration};
 use welkin_assets::{Kind, Name};
 use welkin_encode::file_extension;
@@ -19,6 +21,10 @@ pub struct Jobs {
     pub(crate) queue: Queue,
     pub(crate) store: Store,
     pub(crate) assets: Option<Arc<welkin_assets::Store>>,
+    limits: Limits,
+    /// What was found a moment ago, so that many who watch cost no more than one; and what will not change any more.
+    pub(crate) lately: Cache<JobId, JobStatus>,
+    pub(crate) ended: Cache<JobId, JobStatus>,
 }
 
 /// A job that was sent.
@@ -37,19 +43,37 @@ pub(crate) struct Checked {
     pub(crate) assets: BTreeSet<(Kind, Name)>,
 }
 
+/// Statuses that are kept.
+const KNOWN: u64 = 1000;
+/// How long a status is news.
+const LATELY: Duration = Duration::from_millis(250);
+
 impl Jobs {
     /// Jobs of a queue and a store. Scenes take their assets from `assets`; what a job names is copied into the store
     /// when the job is sent, so that workers anywhere have it, and it stays as it was.
     #[must_use]
     pub fn new(queue: Queue, store: Store, assets: Option<Arc<welkin_assets::Store>>) -> Self {
-        Self { queue, store, assets }
+        Self {
+            queue,
+            store,
+            assets,
+            limits: Limits::default(),
+            lately: Cache::builder().max_capacity(KNOWN).time_to_live(LATELY).build(),
+            ended: Cache::new(KNOWN),
+        }
+    }
+
+    /// The same jobs, of which no more are taken than this.
+    #[must_use]
+    pub fn with_limits(self, limits: Limits) -> Self {
+        Self { limits, ..self }
     }
 
     /// Checks a whole job and puts it into the queue. A key stands for one document: sent again, it is the same job.
     ///
     /// # Errors
     /// [`JobError::Scene`] where any frame is not a scene, [`JobError::Assets`] where one names what is not there,
-    /// [`JobError::KeyTaken`]; [`JobError::Queue`] and [`JobError::Store`], after which it may be sent again.
+    /// [`JobError::KeyTaken`]; [`JobError::Full`]; [`JobError::Queue`] and [`JobError::Store`], after which it may be sent again.
     pub async fn send(&self, document: String, key: Option<&str>) -> Result<Sent, JobError> {
         let shelf = self.assets.clone();
         let checked = beside(move || {
@@ -58,21 +82,41 @@ impl Jobs {
             Ok(Checked { plan, assets })
         });
         let checked = checked.await?;
-        let document =
-            serde_json::to_string(checked.plan.request()).map_err(|e| JobError::Damaged(e.to_string()))?;
+        let request = checked.plan.request();
+        let document = serde_json::to_string(request).map_err(|e| JobError::Damaged(e.to_string()))?;
+        let weight = self.weight(&checked, &document).await?;
+        self.limits.check(&checked.plan, &weight)?;
         let id = JobId::new();
-        let id = match self.queue.add(id, key, &document, checked.plan.count()).await? {
-            None => id,
-            Some(known) => {
-                let record = self.queue.record(known).await?;
-                if record.document != document {
+        let new = New {
+            id,
+            key,
+            document: &document,
+            summary: &Summary {
+                name: request.name.clone(),
+                kind: request.frames.kind().into(),
+                format: request.format,
+            },
+            frames: checked.plan.count(),
+            bytes: weight.all,
+        };
+        match self.queue.add(&new, self.limits.store_bytes).await? {
+            Added::New => {}
+            Added::Full => {
+                return Err(JobError::Full {
+                    bytes: weight.all,
+                    taken: self.queue.weight().await?,
+                    most: self.limits.store_bytes,
+                });
+            }
+            Added::Known(known) => {
+                if self.queue.document(known).await? != document {
                     return Err(JobError::KeyTaken {
                         key: key.unwrap_or_default().to_owned(),
                         job: known.to_string(),
                     });
                 }
                 // Whoever sent it first may have gone in the middle of it.
-                if record.state == State::Queueing {
+                if self.queue.record(known).await?.state == State::Queueing {
                     self.complete(known, &checked).await?;
                 }
                 return Ok(Sent {
@@ -80,9 +124,41 @@ impl Jobs {
                     is_new: false,
                 });
             }
-        };
+        }
         self.complete(id, &checked).await?;
         Ok(Sent { id, is_new: true })
+    }
+
+    /// What a job may take.
+    pub(crate) async fn weight(&self, checked: &Checked, document: &str) -> Result<Weight, JobError> {
+        let mut assets = 0;
+        for (kind, name) in &checked.assets {
+            let (shelf, kind, name) = (self.assets.clone(), *kind, name.clone());
+            let found = beside(move || shelf.map_or(Ok(None), |shelf| Ok(shelf.asset(kind, &name)?)));
+            assets += found.await?.map_or(0, |asset| asset.bytes);
+        }
+        weigh(&checked.plan, document, assets)
+    }
+
+    /// Says what a job that has ended takes, now that it is known: frames that are being stored right now count whole.
+    pub(crate) async fn settle(&self, id: JobId) -> Result<(), JobError> {
+        let document = self.queue.document(id).await?;
+        let plan = plan(&document)?;
+        let weight = weigh(&plan, &document, 0)?;
+        let frames: u64 = (self.queue.settled(id).await?.iter())
+            .filter_map(|frame| frame.told["bytes"].as_u64())
+            .sum();
+        let files: u64 = self.files(id).await?.iter().map(|file| file.bytes).sum();
+        let assets: u64 = self
+            .store
+            .list(&id.assets())
+            .await?
+            .iter()
+            .map(|(_, bytes)| bytes)
+            .sum();
+        let running = u64::from(self.queue.counts(id).await?.running);
+        let all = weight.kept + assets + frames + files + running * weight.frame;
+        self.queue.weigh(id, all).await
     }
 
     /// Puts assets into the store and tasks into the queue, as far as they are not there.
@@ -103,7 +179,7 @@ impl Jobs {
     /// # Errors
     /// [`JobError::Unknown`], and where queue or store fail.
     pub async fn status(&self, id: JobId) -> Result<JobStatus, JobError> {
-        self.status_of(self.queue.record(id).await?).await
+        self.known_status(id, None).await
     }
 
     /// How jobs are doing: `most` of those sent before `before`, the last first.
@@ -113,7 +189,7 @@ impl Jobs {
     pub async fn list(&self, before: Option<JobId>, most: u32) -> Result<Vec<JobStatus>, JobError> {
         let mut all = Vec::new();
         for record in self.queue.records_before(before, most).await? {
-            all.push(self.status_of(record).await?);
+            all.push(self.known_status(record.id, Some(record)).await?);
         }
         Ok(all)
     }
@@ -127,7 +203,9 @@ impl Jobs {
         self.queue.record(id).await?;
         if self.queue.cancel(id).await? {
             self.queue.withdraw(id).await?;
+            self.settle(id).await?;
         }
+        self.lately.invalidate(&id).await;
         Ok(())
     }
 
@@ -143,9 +221,7 @@ impl Jobs {
             name: name.chars().take(80).collect(),
         };
         let (path, file) = if let Ok(number) = name.parse::<u32>() {
-            let request: JobRequest =
-                serde_json::from_str(&record.document).map_err(|e| JobError::Damaged(e.to_string()))?;
-            let extension = file_extension(request.format());
+            let extension = file_extension(record.summary.of_frames());
             (id.frame(number, extension), format!("{number:06}.{extension}"))
         } else {
             // Only what jobs make: the store may hold other things.
@@ -197,6 +273,12 @@ impl Jobs {
         metrics::load((waiting, running, workers));
         Ok(())
     }
+}
+
+/// The plan of a document that the queue holds.
+pub(crate) fn plan(document: &str) -> Result<JobPlan, JobError> {
+    let request: JobRequest = serde_json::from_str(document).map_err(|e| JobError::Damaged(e.to_string()))?;
+    Ok(JobPlan::new(request)?)
 }
 
 /// Runs what takes long beside the asynchronous work.

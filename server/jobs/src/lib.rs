@@ -7,12 +7,14 @@
 //! begun again by others, and come out the same.
 
 mod assets;
+mod board;
 mod error;
 mod film;
 mod frame;
 mod gather;
 mod id;
 mod jobs;
+mod limits;
 mod metrics;
 mod queue;
 mod status;
@@ -20,9 +22,11 @@ mod store;
 mod tend;
 mod worker;
 
+pub use board::Board;
 pub use error::JobError;
-pub use id::JobId;
+pub use id::{JobId, Part, Task};
 pub use jobs::{Jobs, Sent};
+pub use limits::Limits;
 pub use queue::{Counts, Dead, Queue, State};
 pub use status::{FileInfo, JobStatus};
 pub use store::{ByteStream, Store};

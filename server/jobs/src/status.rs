@@ -6,7 +6,8 @@ use crate::{
 };
 use chrono::{DateTime, SecondsFormat};
 use serde::Serialize;
-use serde_json::Value;
+use std::sync::Arc;
+use welkin_scene::Format;
 
 /// Failures that a status tells.
 const MOST_FAILURES: u32 = 100;
@@ -23,7 +24,7 @@ pub struct JobStatus {
     /// `list`, `grid`, `random`, `timeline` or `panorama`.
     pub kind: String,
     /// The kind of file of its frames.
-    pub format: Option<String>,
+    pub format: Option<Format>,
     /// How far it is.
     pub state: State,
     /// When it was sent, RFC 3339.
@@ -56,19 +57,43 @@ pub struct FileInfo {
 }
 
 impl Jobs {
-    pub(crate) async fn status_of(&self, record: Record) -> Result<JobStatus, JobError> {
+    /// A job's status: as it was found a moment ago, or for good, or else anew, from its row where that is known.
+    pub(crate) async fn known_status(
+        &self,
+        id: JobId,
+        record: Option<Record>,
+    ) -> Result<JobStatus, JobError> {
+        if let Some(status) = self.ended.get(&id).await {
+            return Ok(status);
+        }
+        let found = async {
+            let record = match record {
+                Some(record) => record,
+                None => self.queue.record(id).await?,
+            };
+            self.status_of(record).await
+        };
+        let found = self.lately.try_get_with(id, found).await;
+        let status = found.map_err(|error: Arc<JobError>| match Arc::try_unwrap(error) {
+            Ok(error) => error,
+            Err(error) => JobError::Queue(error.to_string()),
+        })?;
+        if status.state.has_ended() && status.counts.running == 0 {
+            self.ended.insert(id, status.clone()).await;
+        }
+        Ok(status)
+    }
+
+    async fn status_of(&self, record: Record) -> Result<JobStatus, JobError> {
         let Record {
             id,
             frames,
             state,
             created_ms,
             ended_ms,
-            ref notes,
-            ..
+            notes,
+            summary,
         } = record;
-        let document: Value =
-            serde_json::from_str(&record.document).map_err(|e| JobError::Damaged(e.to_string()))?;
-        let text = |value: &Value| value.as_str().map(str::to_owned);
         let counts = self.queue.counts(id).await?;
         let failures = match counts.failed {
             0 if state != State::Failed => Vec::new(),
@@ -82,9 +107,9 @@ impl Jobs {
         };
         Ok(JobStatus {
             id,
-            name: text(&document["name"]),
-            kind: text(&document["frames"]["kind"]).unwrap_or_default(),
-            format: text(&document["format"]),
+            name: summary.name,
+            kind: summary.kind,
+            format: summary.format,
             state,
             created_at: rfc3339(created_ms),
             ended_at: ended_ms.map(rfc3339),
@@ -100,7 +125,7 @@ impl Jobs {
             rate_per_s,
             eta_s: (rate_per_s > 0.0 && !state.has_ended()).then(|| left / rate_per_s),
             failures,
-            notes: notes.clone(),
+            notes,
             files,
         })
     }

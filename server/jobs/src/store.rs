@@ -115,6 +115,12 @@ impl Store {
         }
     }
 
+    /// Files anywhere below a folder, with their lengths in bytes.
+    pub(crate) async fn list(&self, folder: &Path) -> Result<Vec<(Path, u64)>, JobError> {
+        let found: Vec<_> = self.0.list(Some(folder)).try_collect().await?;
+        Ok(found.into_iter().map(|meta| (meta.location, meta.size)).collect())
+    }
+
     /// Files right inside a folder, with their lengths in bytes.
     pub(crate) async fn list_folder(&self, folder: &Path) -> Result<Vec<(Path, u64)>, JobError> {
         let found = self.0.list_with_delimiter(Some(folder)).await?.objects;

@@ -8,10 +8,9 @@ use crate::{
     JobError, Jobs,
     assets::named_in,
     id::Part,
-    jobs::{Checked, beside},
+    jobs::{Checked, beside, plan},
     queue::{Record, State, now_ms},
 };
-use welkin_scene::{JobPlan, JobRequest};
 
 /// After this long, who began to queue a job is thought to be gone, milliseconds.
 const ABANDONED_MS: i64 = 60_000;
@@ -40,11 +39,9 @@ impl Jobs {
         if now_ms() - record.created_ms < ABANDONED_MS {
             return Ok(());
         }
-        let (document, shelf) = (record.document.clone(), self.assets.clone());
+        let (document, shelf) = (self.queue.document(record.id).await?, self.assets.clone());
         let checked = beside(move || {
-            let request: JobRequest =
-                serde_json::from_str(&document).map_err(|e| JobError::Damaged(e.to_string()))?;
-            let plan = JobPlan::new(request)?;
+            let plan = plan(&document)?;
             let assets = named_in(&plan, shelf.as_deref())?;
             Ok(Checked { plan, assets })
         });
@@ -83,6 +80,7 @@ impl Jobs {
         let failed = !self.queue.dead(record.id, 1).await?.is_empty();
         let end = if failed { State::Failed } else { State::Done };
         if self.queue.advance(record.id, State::Gathering, end).await? {
+            self.settle(record.id).await?;
             tracing::info!(job = %record.id, state = end.name(), "a job has ended");
         }
         Ok(())

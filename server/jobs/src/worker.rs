@@ -4,7 +4,7 @@ use crate::{
     JobError, JobId, Jobs, Queue, assets,
     frame::{Bench, Loaded, Trouble},
     id::{Part, Task},
-    jobs::beside,
+    jobs::{beside, plan},
     metrics,
     queue::now_ms,
 };
@@ -34,8 +34,9 @@ use tokio::{
     sync::{Semaphore, watch},
     time::sleep,
 };
+use tracing::Instrument;
 use ulid::Ulid;
-use welkin_scene::{JobPlan, JobRequest, renderer::Render};
+use welkin_scene::renderer::Render;
 
 /// How often an idle worker looks for tasks: at first, and at most this long after.
 const LOOK: Duration = Duration::from_millis(100);
@@ -174,7 +175,9 @@ async fn take(shop: &Arc<Shop>, name: &str, settings: &WorkerSettings) -> Result
 
 /// One task. Its answer is what the queue keeps of it.
 async fn work(task: Task, attempt: Attempt, shop: Data<Arc<Shop>>) -> Result<Value, BoxDynError> {
-    let done = shop.work(&task, attempt.current()).await;
+    let attempt = attempt.current();
+    let span = tracing::info_span!("task", job = task.job, part = ?task.part, attempt);
+    let done = shop.work(&task, attempt).instrument(span).await;
     shop.ended.store(true, Ordering::Relaxed);
     done
 }
@@ -239,11 +242,9 @@ impl Shop {
         if let Some(known) = self.known.get(&id).await {
             return Ok(known);
         }
-        let document = self.jobs.queue.record(id).await?.document;
+        let document = self.jobs.queue.document(id).await?;
         let checked = beside(move || {
-            let request: JobRequest =
-                serde_json::from_str(&document).map_err(|e| JobError::Damaged(e.to_string()))?;
-            let plan = JobPlan::new(request)?;
+            let plan = plan(&document)?;
             let named = assets::names_in(&plan)?;
             Ok((plan, named))
         });

@@ -55,6 +55,7 @@ pub fn app(service: Service) -> Result<Router, crate::StartError> {
     let nosniff = HeaderValue::from_static("nosniff");
     Ok(routes
         .merge(docs)
+        .merge(jobs::board::routes(&service))
         .fallback(web::asset)
         .layer(CompressionLayer::new().compress_when(is_text))
         .layer(

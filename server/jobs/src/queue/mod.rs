@@ -6,8 +6,8 @@
 mod records;
 mod tasks;
 
-pub(crate) use records::Record;
 pub use records::State;
+pub(crate) use records::{Added, New, Record, Summary};
 pub(crate) use tasks::Settled;
 pub use tasks::{Counts, Dead};
 

@@ -5,11 +5,13 @@ CREATE TABLE IF NOT EXISTS welkin_jobs (
     id TEXT PRIMARY KEY,
     idempotency_key TEXT UNIQUE,
     document TEXT NOT NULL,
+    summary TEXT NOT NULL,
     frames BIGINT NOT NULL,
     state TEXT NOT NULL,
     created_ms BIGINT NOT NULL,
     ended_ms BIGINT,
-    notes TEXT NOT NULL DEFAULT '[]'
+    notes TEXT NOT NULL DEFAULT '[]',
+    bytes BIGINT NOT NULL
 );
 CREATE INDEX IF NOT EXISTS welkin_jobs_open ON welkin_jobs (id) WHERE ended_ms IS NULL;
 -- Prefixes are looked up byte by byte, whatever the database's collation.

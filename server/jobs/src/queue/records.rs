@@ -2,8 +2,9 @@
 
 use super::{Queue, now_ms, on};
 use crate::{JobError, id::JobId};
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use sqlx::Row;
+use welkin_scene::Format;
 
 /// How far a job is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
@@ -53,11 +54,52 @@ impl State {
     }
 }
 
+/// What is told of a job's document wherever the job is, beside the document, which may be long.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub(crate) struct Summary {
+    pub(crate) name: Option<String>,
+    pub(crate) kind: String,
+    pub(crate) format: Option<Format>,
+}
+
+impl Summary {
+    /// The kind of file of every frame.
+    pub(crate) fn of_frames(&self) -> Format {
+        let usual = if self.kind == "panorama" {
+            Format::Exr
+        } else {
+            Format::Png
+        };
+        self.format.unwrap_or(usual)
+    }
+}
+
+/// A job that is to be added.
+pub(crate) struct New<'a> {
+    pub(crate) id: JobId,
+    pub(crate) key: Option<&'a str>,
+    pub(crate) document: &'a str,
+    pub(crate) summary: &'a Summary,
+    pub(crate) frames: u32,
+    /// What it may take of the store and the queue.
+    pub(crate) bytes: u64,
+}
+
+/// What has come of adding a job.
+pub(crate) enum Added {
+    New,
+    /// One of this key is there.
+    Known(JobId),
+    /// All jobs together would take more than they may.
+    Full,
+}
+
 /// A job as its row holds it.
 #[derive(Clone, Debug)]
 pub(crate) struct Record {
     pub(crate) id: JobId,
-    pub(crate) document: String,
+    /// What a status tells of the document.
+    pub(crate) summary: Summary,
     pub(crate) frames: u32,
     pub(crate) state: State,
     pub(crate) created_ms: i64,
@@ -66,37 +108,73 @@ pub(crate) struct Record {
     pub(crate) notes: Vec<String>,
 }
 
-const COLUMNS: &str = "id, document, frames, state, created_ms, ended_ms, notes";
+const COLUMNS: &str = "id, summary, frames, state, created_ms, ended_ms, notes";
 
 impl Queue {
-    /// Adds a job, unless one of this key is there; then gives that one's name.
-    pub(crate) async fn add(
-        &self,
-        id: JobId,
-        key: Option<&str>,
-        document: &str,
-        frames: u32,
-    ) -> Result<Option<JobId>, JobError> {
-        let text = "INSERT INTO welkin_jobs (id, idempotency_key, document, frames, state, created_ms) \
-                    VALUES ($1, $2, $3, $4, 'queueing', $5) ON CONFLICT (idempotency_key) DO NOTHING";
+    /// Adds a job, unless one of this key is there or all together would take more than `most` bytes.
+    pub(crate) async fn add(&self, job: &New<'_>, most: u64) -> Result<Added, JobError> {
+        // Where there is no WHERE, SQLite takes ON CONFLICT for the ON of a join.
+        let text = "INSERT INTO welkin_jobs (id, idempotency_key, document, summary, frames, state, created_ms, bytes) \
+                    SELECT $1, $2, $3, $4, $5, 'queueing', $6, $7 \
+                    WHERE (SELECT CAST(coalesce(sum(bytes), 0) AS BIGINT) FROM welkin_jobs) <= $8 \
+                    ON CONFLICT (idempotency_key) DO NOTHING";
+        let summary = serde_json::to_string(job.summary).map_err(|e| JobError::Damaged(e.to_string()))?;
+        let room = i64::try_from(most).unwrap_or(i64::MAX);
+        let bytes = i64::try_from(job.bytes).unwrap_or(i64::MAX);
         let added = on!(self, |pool, tasks| {
             let added = sqlx::query(text)
-                .bind(id.to_string())
-                .bind(key)
-                .bind(document)
-                .bind(i64::from(frames))
-                .bind(now_ms());
+                .bind(job.id.to_string())
+                .bind(job.key)
+                .bind(job.document)
+                .bind(summary)
+                .bind(i64::from(job.frames))
+                .bind(now_ms())
+                .bind(bytes)
+                .bind(room.saturating_sub(bytes));
             added.execute(pool).await?.rows_affected()
         });
         if added == 1 {
-            return Ok(None);
+            return Ok(Added::New);
         }
         let text = "SELECT id FROM welkin_jobs WHERE idempotency_key = $1";
-        let known: String = on!(self, |pool, tasks| sqlx::query_scalar(text)
-            .bind(key)
+        let known: Option<String> = on!(self, |pool, tasks| sqlx::query_scalar(text)
+            .bind(job.key)
+            .fetch_optional(pool)
+            .await?);
+        known.map_or(Ok(Added::Full), |id| Ok(Added::Known(id.parse()?)))
+    }
+
+    /// Says what a job takes of the store and the queue, now that it is known.
+    pub(crate) async fn weigh(&self, id: JobId, bytes: u64) -> Result<(), JobError> {
+        let text = "UPDATE welkin_jobs SET bytes = $2 WHERE id = $1";
+        let bytes = i64::try_from(bytes).unwrap_or(i64::MAX);
+        on!(self, |pool, tasks| {
+            sqlx::query(text)
+                .bind(id.to_string())
+                .bind(bytes)
+                .execute(pool)
+                .await?;
+        });
+        Ok(())
+    }
+
+    /// What all jobs take, bytes.
+    pub(crate) async fn weight(&self) -> Result<u64, JobError> {
+        let text = "SELECT CAST(coalesce(sum(bytes), 0) AS BIGINT) FROM welkin_jobs";
+        let bytes: i64 = on!(self, |pool, tasks| sqlx::query_scalar(text)
             .fetch_one(pool)
             .await?);
-        Ok(Some(known.parse()?))
+        Ok(u64::try_from(bytes).unwrap_or_default())
+    }
+
+    /// A job's document.
+    pub(crate) async fn document(&self, id: JobId) -> Result<String, JobError> {
+        let text = "SELECT document FROM welkin_jobs WHERE id = $1";
+        let found: Option<String> = on!(self, |pool, tasks| sqlx::query_scalar(text)
+            .bind(id.to_string())
+            .fetch_optional(pool)
+            .await?);
+        found.ok_or_else(|| JobError::Unknown(id.to_string()))
     }
 
     /// A job's row.
@@ -131,7 +209,7 @@ impl Queue {
                 let notes: String = row.try_get(6)?;
                 let damaged = || JobError::Damaged(format!("the queue's row of job {id} is damaged"));
                 Ok(Record {
-                    document: row.try_get(1)?,
+                    summary: serde_json::from_str(row.try_get(1)?).map_err(|_| damaged())?,
                     frames: u32::try_from(row.try_get::<i64, _>(2)?).map_err(|_| damaged())?,
                     state: State::ALL
                         .into_iter()

@@ -22,6 +22,20 @@ pub enum Frames {
     Panorama(Panorama),
 }
 
+impl Frames {
+    /// As the document names it.
+    #[must_use]
+    pub const fn kind(&self) -> &'static str {
+        match self {
+            Self::List(_) => "list",
+            Self::Grid(_) => "grid",
+            Self::Random(_) => "random",
+            Self::Timeline(_) => "timeline",
+            Self::Panorama(_) => "panorama",
+        }
+    }
+}
+
 /// Scenes one by one.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]

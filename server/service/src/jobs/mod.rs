@@ -1,5 +1,6 @@
 //! `/v1/jobs`: many frames at once, rendered by whoever works on the queue.
 
+pub(crate) mod board;
 pub(crate) mod document;
 mod events;
 
@@ -77,6 +78,7 @@ impl From<JobError> for Error {
             JobError::Assets(error) => error.into(),
             JobError::Unknown(id) => Self::NotFound(format!("/v1/jobs/{id}")),
             JobError::NoResult { job, name } => Self::NotFound(format!("/v1/jobs/{job}/results/{name}")),
+            JobError::Full { .. } => Self::NoRoom(error.to_string()),
             JobError::KeyTaken { .. } => Self::KeyTaken(error.to_string()),
             JobError::Queue(_) | JobError::Store(_) => Self::Unreachable {
                 cause: error.to_string(),

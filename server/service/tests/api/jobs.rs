@@ -8,7 +8,7 @@ use axum::{Router, body::Body, http::Request};
 use serde_json::{Value, json};
 use std::{sync::Arc, time::Duration};
 use tempfile::TempDir;
-use welkin_jobs::{Jobs, Queue, Store, Worker, WorkerSettings};
+use welkin_jobs::{Jobs, Limits, Queue, Store, Worker, WorkerSettings};
 use welkin_service::{Service, Settings, app};
 
 struct Place {
@@ -28,7 +28,11 @@ impl Place {
         let folder = TempDir::new().unwrap();
         let queue = format!("sqlite:{}", folder.path().join("jobs.db").display());
         let store = Store::folder(&folder.path().join("results")).unwrap();
-        let jobs = Jobs::new(Queue::open(&queue).await.unwrap(), store, None);
+        let limits = Limits {
+            store_bytes: 40 << 20,
+            max_frame_pixels: 640 * 360,
+        };
+        let jobs = Jobs::new(Queue::open(&queue).await.unwrap(), store, None).with_limits(limits);
         let service = Service::new(Arc::clone(&fake) as _, Settings::default()).with_jobs(jobs.clone());
         Self {
             app: app(service.clone()).unwrap(),
@@ -254,4 +258,114 @@ async fn batch_work_waits_while_somebody_looks() {
     let job = get(&place.app, &path).await.json();
     assert_eq!(job["counts"]["done"], 0, "{job}");
     assert_eq!(place.ended(&path).await["counts"]["done"], 2);
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn jobs_take_no_more_of_the_store_than_they_may() {
+    let place = Place::new().await;
+    let sized = |count: u32, width_px: u32, height_px: u32| {
+        let mut document = small(count);
+        document["width_px"] = json!(width_px);
+        document["height_px"] = json!(height_px);
+        document
+    };
+    let problem = place.post(&sized(1, 641, 360)).await.problem(422);
+    assert_eq!(problem["pointer"], "/width_px", "{problem}");
+    // 46 frames of 640 x 360 pixels at 4 bytes are more than 40 MiB.
+    let problem = place.post(&sized(46, 640, 360)).await.problem(422);
+    assert_eq!(problem["pointer"], "/frames", "{problem}");
+    let panorama =
+        json!({"frames": {"kind": "panorama", "tile_px": 16}, "width_px": 32_768, "height_px": 16_384});
+    assert_eq!(place.post(&panorama).await.problem(422)["pointer"], "/frames");
+
+    // Together they are too many until one of them turns out smaller than it might have been.
+    assert_eq!(place.post(&sized(30, 640, 360)).await.status, 202);
+    let second = place.post(&sized(30, 640, 360)).await;
+    let problem = second.problem(507);
+    assert!(
+        problem["detail"].as_str().unwrap().contains("--store-bytes"),
+        "{problem}"
+    );
+    assert_eq!(
+        get(&place.app, "/v1/jobs").await.json()["jobs"]
+            .as_array()
+            .unwrap()
+            .len(),
+        1
+    );
+    let first = get(&place.app, "/v1/jobs").await.json()["jobs"][0]["id"].clone();
+    let stop = Request::delete(format!("/v1/jobs/{}", first.as_str().unwrap()));
+    call(&place.app, stop.body(Body::empty()).unwrap()).await.json();
+    assert_eq!(place.post(&sized(30, 640, 360)).await.status, 202);
+
+    // Nor is the database a place to fill: each job that has ended still weighs what its rows take.
+    let mut sent = 0;
+    let refused = loop {
+        let answer = place.post(&small(200)).await;
+        if answer.status != 202 {
+            break answer;
+        }
+        sent += 1;
+        assert!(sent < 100, "jobs are taken without end");
+    };
+    refused.problem(507);
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn the_board_shows_the_queue_and_changes_nothing() {
+    let place = Place::new().await;
+    place.post(&small(3)).await;
+    let page = get(&place.app, "/jobs").await;
+    assert_eq!(
+        (page.status.as_u16(), page.header("content-type")),
+        (200, "text/html; charset=utf-8")
+    );
+    assert!(
+        page.header("content-security-policy")
+            .contains("'wasm-unsafe-eval'")
+    );
+    for view in ["/jobs/", "/jobs/queues", "/jobs/queues/welkin/tasks"] {
+        assert_eq!(get(&place.app, view).await.body, page.body, "{view}");
+    }
+    let text = String::from_utf8(page.body.to_vec()).unwrap();
+    for link in text.split('"').filter(|word| word.starts_with("/jobs/")) {
+        assert_eq!(get(&place.app, link).await.status, 200, "{link}");
+    }
+    for missing in ["/jobs/nothing.js", "/jobs/api/v1/nothing"] {
+        get(&place.app, missing).await.problem(404);
+    }
+    let tasks = get(
+        &place.app,
+        "/jobs/api/v1/queues/welkin/tasks?status=Pending&page=1&page_size=2",
+    )
+    .await
+    .json();
+    assert_eq!(tasks.as_array().unwrap().len(), 2, "{tasks}");
+    for query in [
+        "page=0",
+        "page=x",
+        "page_size=0",
+        "page_size=201",
+        "page_size=4294967295",
+    ] {
+        let problem = get(&place.app, &format!("/jobs/api/v1/queues/welkin/tasks?{query}"))
+            .await
+            .problem(422);
+        assert_eq!(problem["parameter"], query.split_once('=').unwrap().0);
+    }
+    let task = json!({"job": "any", "part": {"frame": 0}, "queued_ms": 0});
+    for method in ["PUT", "POST", "DELETE", "PATCH"] {
+        let mut request = json_request("/jobs/api/v1/queues/welkin/tasks", task.to_string());
+        *request.method_mut() = method.parse().unwrap();
+        call(&place.app, request).await.problem(405);
+    }
+    let tasks = get(
+        &place.app,
+        "/jobs/api/v1/queues/welkin/tasks?status=Pending&page=1&page_size=200",
+    )
+    .await
+    .json();
+    assert_eq!(tasks.as_array().unwrap().len(), 3);
+    let without = app(Service::new(Fake::new() as _, Settings::default())).unwrap();
+    get(&without, "/jobs").await.problem(404);
 }
