@@ -208,6 +208,38 @@ fn workers_take_what_the_server_leaves_to_them() {
 }
 
 #[test]
+fn a_stopped_job_lets_go_of_the_device_within_two_seconds() {
+    let place = Place::new();
+    let _server = place.serve(&[]);
+    // Cloudy and large: a frame takes minutes where two cores render in software, a tile a fraction of a second.
+    let mut slow = small(4);
+    slow["frames"]["scene"] = json!({});
+    (slow["width_px"], slow["height_px"]) = (json!(2560), json!(1440));
+    let id = text(&place.submit(&slow, &[]).stdout);
+    place.until(&id, |job| job["counts"]["running"].as_u64() > Some(0));
+    // In the middle of the first frame.
+    std::thread::sleep(Duration::from_secs(3));
+    let begun = Instant::now();
+    let stopped = place.welkin(&["jobs", &id, "--cancel"]).output().unwrap();
+    assert!(stopped.status.success(), "{}", text(&stopped.stderr));
+    let job = place.until(&id, |job| job["counts"]["running"] == 0);
+    // The promise of the product.
+    assert!(begun.elapsed() < Duration::from_secs(2), "{:?}", begun.elapsed());
+    assert_eq!(
+        (&job["state"], &job["counts"]["done"]),
+        (&json!("cancelled"), &json!(0)),
+        "{job:#}"
+    );
+    let frames = Path::new(&place.path("results")).join(format!("jobs/{id}/frames"));
+    assert!(!frames.exists() || fs::read_dir(frames).unwrap().next().is_none());
+    // The device is free: what comes next is rendered at once, not after the frames that nobody wants.
+    let begun = Instant::now();
+    let next = place.submit(&small(1), &["--wait"]);
+    assert!(next.status.success(), "{}", text(&next.stderr));
+    assert!(begun.elapsed() < Duration::from_secs(20), "{:?}", begun.elapsed());
+}
+
+#[test]
 fn what_the_server_would_refuse_is_told_with_its_place() {
     let place = Place::new();
     let wrong = place.submit(&json!({"frames": {"kind": "list", "scenes": [{"sun": 1}]}}), &[]);

@@ -145,9 +145,7 @@ impl Jobs {
         let document = self.queue.document(id).await?;
         let plan = plan(&document)?;
         let weight = weigh(&plan, &document, 0)?;
-        let frames: u64 = (self.queue.settled(id).await?.iter())
-            .filter_map(|frame| frame.told["bytes"].as_u64())
-            .sum();
+        let frames = self.queue.stored_bytes(id).await?;
         let files: u64 = self.files(id).await?.iter().map(|file| file.bytes).sum();
         let assets: u64 = self
             .store
@@ -167,9 +165,7 @@ impl Jobs {
             assets::freeze(self, id, *kind, name).await?;
         }
         let parts: Vec<_> = (0..checked.plan.count()).map(Part::Frame).collect();
-        self.queue
-            .push(id, &parts, checked.plan.request().attempts)
-            .await?;
+        self.queue.push(id, &parts).await?;
         self.queue.advance(id, State::Queueing, State::Running).await?;
         Ok(())
     }
@@ -262,15 +258,20 @@ impl Jobs {
             .collect())
     }
 
-    /// Tells the recorder of metrics how many tasks of all jobs wait and run, and how many workers were heard of lately.
+    /// Tells the recorder of metrics how many tasks of all jobs wait and run, how many workers were heard of lately, and
+    /// what all jobs take.
     ///
     /// # Errors
     /// Where the queue fails.
     pub async fn tell_load(&self, heartbeat_s: u32) -> Result<(), JobError> {
         metrics::describe();
         let (waiting, running) = self.queue.depth().await?;
-        let workers = self.queue.workers(3 * i64::from(heartbeat_s)).await?;
-        metrics::load((waiting, running, workers));
+        metrics::load(&metrics::Load {
+            waiting,
+            running,
+            workers: self.queue.workers(3 * i64::from(heartbeat_s)).await?,
+            bytes: self.queue.weight().await?,
+        });
         Ok(())
     }
 }

@@ -11,6 +11,7 @@ const STAGE: &str = "welkin_job_stage_seconds";
 const RENDER_PASS: &str = "welkin_render_pass_seconds";
 const WAITING: &str = "welkin_jobs_tasks_waiting";
 const RUNNING: &str = "welkin_jobs_tasks_running";
+const BYTES: &str = "welkin_jobs_bytes";
 const WORKERS: &str = "welkin_jobs_workers";
 
 /// Says what the numbers are; once for a recorder.
@@ -31,6 +32,11 @@ pub(crate) fn describe() {
         );
         describe_gauge!(WAITING, "Tasks of jobs that wait, on all machines");
         describe_gauge!(RUNNING, "Tasks of jobs that run, on all machines");
+        describe_gauge!(
+            BYTES,
+            Unit::Bytes,
+            "What all jobs take of the store and the queue, or may take while they run"
+        );
         describe_gauge!(
             WORKERS,
             "Workers whose heartbeat was heard lately, on all machines"
@@ -60,12 +66,21 @@ pub(crate) fn passes(frame: &Frame) {
     }
 }
 
+/// What is in the queue, on all machines.
+pub(crate) struct Load {
+    pub(crate) waiting: u64,
+    pub(crate) running: u64,
+    pub(crate) workers: u64,
+    pub(crate) bytes: u64,
+}
+
 #[allow(
     clippy::cast_precision_loss,
-    reason = "2^53 tasks are more than a queue holds"
+    reason = "2^53 tasks or bytes are more than a queue holds"
 )]
-pub(crate) fn load((waiting, running, workers): (u64, u64, u64)) {
-    gauge!(WAITING).set(waiting as f64);
-    gauge!(RUNNING).set(running as f64);
-    gauge!(WORKERS).set(workers as f64);
+pub(crate) fn load(load: &Load) {
+    gauge!(WAITING).set(load.waiting as f64);
+    gauge!(RUNNING).set(load.running as f64);
+    gauge!(WORKERS).set(load.workers as f64);
+    gauge!(BYTES).set(load.bytes as f64);
 }

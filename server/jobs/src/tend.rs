@@ -14,8 +14,6 @@ use crate::{
 
 /// After this long, who began to queue a job is thought to be gone, milliseconds.
 const ABANDONED_MS: i64 = 60_000;
-/// How often what is made of all frames is begun.
-const GATHER_ATTEMPTS: u32 = 5;
 
 impl Jobs {
     /// Moves jobs on that are ready for it.
@@ -62,18 +60,14 @@ impl Jobs {
                 .advance(record.id, State::Running, State::Gathering)
                 .await?
         {
-            self.queue
-                .push(record.id, &[Part::Gather], GATHER_ATTEMPTS)
-                .await?;
+            self.queue.push(record.id, &[Part::Gather]).await?;
         }
         Ok(())
     }
 
     async fn close(&self, record: &Record) -> Result<(), JobError> {
         // Where it is there, this changes nothing; where the one before went between two steps, it is the second.
-        self.queue
-            .push(record.id, &[Part::Gather], GATHER_ATTEMPTS)
-            .await?;
+        self.queue.push(record.id, &[Part::Gather]).await?;
         if self.queue.is_open(record.id).await? {
             return Ok(());
         }

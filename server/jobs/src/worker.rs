@@ -31,7 +31,7 @@ use std::{
     time::Duration,
 };
 use tokio::{
-    sync::{Semaphore, watch},
+    sync::{RwLock, Semaphore, watch},
     time::sleep,
 };
 use tracing::Instrument;
@@ -80,6 +80,8 @@ struct Shop {
     jobs: Jobs,
     bench: Bench,
     known: Cache<JobId, Arc<Loaded>>,
+    /// Shared by parts that are begun for the first time, held whole by one that is begun again.
+    alone: RwLock<()>,
     /// A task has ended since jobs were looked at.
     ended: AtomicBool,
 }
@@ -117,6 +119,7 @@ impl Worker {
             },
             jobs: self.jobs,
             known: Cache::new(KNOWN_JOBS),
+            alone: RwLock::default(),
             ended: AtomicBool::new(true),
         });
         let works = async {
@@ -190,16 +193,8 @@ impl Shop {
             metrics::waited(Duration::from_millis(waited_ms));
         }
         let id: JobId = task.job.parse().map_err(|e: JobError| abort(e.to_string()))?;
-        let attempts = usize::try_from(self.load(id).await?.plan.request().attempts).unwrap_or(usize::MAX);
-        // A worker's death leaves no reason; a task that was begun so often has been too much for several.
-        if attempt > attempts {
-            metrics::ended("failed");
-            return Err(abort(format!(
-                "given up after {attempts} attempts, the last of which ended with its worker"
-            )));
-        }
         let done = tokio::select! {
-            done = AssertUnwindSafe(self.part(id, task.part)).catch_unwind() => done.unwrap_or_else(|panic| Err(fallen(&*panic))),
+            done = self.tried(id, task.part, attempt) => done,
             () = self.cancelled(id) => Err(Trouble::Cancelled),
             () = self.stopping() => Err(Trouble::Stopping),
         };
@@ -215,7 +210,7 @@ impl Shop {
             Err(trouble @ Trouble::Stopping) => Err(trouble.into()),
             Err(trouble) => {
                 tracing::warn!(job = %id, part = ?task.part, attempt, %trouble, "not done");
-                let last = attempt >= attempts || matches!(trouble, Trouble::Lasting(_));
+                let last = matches!(trouble, Trouble::Lasting(_));
                 metrics::ended(if last { "failed" } else { "again" });
                 Err(if last {
                     abort(trouble.to_string())
@@ -223,6 +218,32 @@ impl Shop {
                     trouble.into()
                 })
             }
+        }
+    }
+
+    /// A part, as often as its job lets it be begun.
+    ///
+    /// The first time, parts are in work beside each other, and a death of the worker takes all of them. After that each
+    /// is begun alone and counted, so that what ends its workers is found, and is given up without the others.
+    async fn tried(&self, id: JobId, part: Part, attempt: usize) -> Result<Value, Trouble> {
+        let attempts = self.load(id).await?.plan.request().attempts;
+        let (_beside, _alone);
+        let begun = if attempt == 1 {
+            _beside = self.alone.read().await;
+            1
+        } else {
+            _alone = self.alone.write().await;
+            1 + self.jobs.queue.begin(&id.key(part)).await?
+        };
+        if begun > attempts {
+            return Err(Trouble::Lasting(format!(
+                "given up after {attempts} attempts, the last of which ended with its worker"
+            )));
+        }
+        let done = AssertUnwindSafe(self.part(id, part)).catch_unwind().await;
+        match done.unwrap_or_else(|panic| Err(fallen(&*panic))) {
+            Err(Trouble::Passing(reason)) if begun == attempts => Err(Trouble::Lasting(reason)),
+            done => done,
         }
     }
 

@@ -13,6 +13,7 @@ CREATE TABLE IF NOT EXISTS welkin_jobs (
     notes TEXT NOT NULL DEFAULT '[]',
     bytes BIGINT NOT NULL
 );
+CREATE TABLE IF NOT EXISTS welkin_begins (task TEXT PRIMARY KEY, count BIGINT NOT NULL);
 CREATE INDEX IF NOT EXISTS welkin_jobs_open ON welkin_jobs (id) WHERE ended_ms IS NULL;
 -- Prefixes are looked up byte by byte, whatever the database's collation.
 CREATE INDEX IF NOT EXISTS welkin_tasks ON apalis.jobs (job_type, idempotency_key text_pattern_ops);

@@ -269,6 +269,17 @@ impl Queue {
         Ok(count > 0)
     }
 
+    /// Counts that a task is begun once more, and tells how often that was.
+    pub(crate) async fn begin(&self, key: &str) -> Result<u32, JobError> {
+        let text = "INSERT INTO welkin_begins (task, count) VALUES ($1, 1) \
+                    ON CONFLICT (task) DO UPDATE SET count = welkin_begins.count + 1 RETURNING count";
+        let count: i64 = on!(self, |pool, tasks| sqlx::query_scalar(text)
+            .bind(key)
+            .fetch_one(pool)
+            .await?);
+        Ok(u32::try_from(count).unwrap_or(u32::MAX))
+    }
+
     /// Says something of a job.
     pub(crate) async fn note(&self, id: JobId, notes: &[String]) -> Result<(), JobError> {
         let text = "UPDATE welkin_jobs SET notes = $2 WHERE id = $1";

@@ -16,6 +16,8 @@ use ulid::Generator;
 
 /// Tasks of one transaction.
 const CHUNK: usize = 2000;
+/// How often a task may be fetched; how often it is begun is for workers to count.
+const MOST_FETCHES: usize = 1_000_000;
 /// What the table holds of a task that was stopped before it began; a worker that stops one writes the same reason.
 const CANCELLED_RESULT: &str = r#"{"Err": "cancelled"}"#;
 
@@ -55,7 +57,7 @@ pub(crate) struct Settled {
 
 impl Queue {
     /// Puts tasks into the queue, each unless it is there.
-    pub(crate) async fn push(&self, id: JobId, parts: &[Part], attempts: u32) -> Result<(), JobError> {
+    pub(crate) async fn push(&self, id: JobId, parts: &[Part]) -> Result<(), JobError> {
         let known = match parts {
             [one] => self.known(&id.key(*one)).await?,
             _ => self.keys(id).await?,
@@ -69,7 +71,7 @@ impl Queue {
         for chunk in missing.chunks(CHUNK) {
             let tasks = chunk
                 .iter()
-                .map(|part| task(id, *part, attempts, &mut names))
+                .map(|part| task(id, *part, &mut names))
                 .collect::<Result<Vec<_>, _>>()?;
             self.push_chunk(tasks).await?;
         }
@@ -246,6 +248,26 @@ impl Queue {
         Ok(rows.into_iter().filter_map(settled).collect())
     }
 
+    /// What the files of the frames that are done take, bytes.
+    pub(crate) async fn stored_bytes(&self, id: JobId) -> Result<u64, JobError> {
+        let bytes: i64 = on!(self, |pool, tasks| {
+            let told = match self {
+                Self::Sqlite(_) => "json_extract(CAST(last_result AS TEXT), '$.Ok.bytes')",
+                Self::Postgres(_) => "CAST(last_result::jsonb #>> '{Ok,bytes}' AS BIGINT)",
+            };
+            let text = format!(
+                "SELECT CAST(coalesce(sum({told}), 0) AS BIGINT) FROM {tasks} WHERE {} AND status = 'Done'",
+                of_job(self)
+            );
+            sqlx::query_scalar(sqlx::AssertSqlSafe(text))
+                .bind(NAME)
+                .bind(prefix(self, id))
+                .fetch_one(pool)
+                .await?
+        });
+        Ok(u64::try_from(bytes).unwrap_or_default())
+    }
+
     /// True while a task of the job waits or runs.
     pub(crate) async fn is_open(&self, id: JobId) -> Result<bool, JobError> {
         let count: i64 = on!(self, |pool, tasks| {
@@ -333,18 +355,15 @@ impl Queue {
     }
 }
 
-fn task(id: JobId, part: Part, attempts: u32, names: &mut Generator) -> Result<Queued<Task>, JobError> {
+fn task(id: JobId, part: Part, names: &mut Generator) -> Result<Queued<Task>, JobError> {
     // In order, as tasks of one second are taken in the order of their names.
     let name = names.generate().map_err(|e| JobError::Queue(e.to_string()))?;
-    let task = TaskBuilder::new(Task {
-        job: id.to_string(),
-        part,
-        queued_ms: now_ms(),
-    })
-    .task_id(TaskId::from_string(name.to_string()))
-    .idempotency_key(id.key(part))
-    .max_attempts(attempts as usize)
-    .priority(usize::from(part == Part::Gather));
+    let (job, queued_ms) = (id.to_string(), now_ms());
+    let task = TaskBuilder::new(Task { job, part, queued_ms })
+        .task_id(TaskId::from_string(name.to_string()))
+        .idempotency_key(id.key(part))
+        .max_attempts(MOST_FETCHES)
+        .priority(usize::from(part == Part::Gather));
     Ok(task.build())
 }
 

@@ -27,6 +27,8 @@ const STORE: &str = "WELKIN_TEST_STORE";
 const FRAME: Duration = Duration::from_millis(60);
 const FRAMES: u32 = 500;
 const KILLS: u32 = 10;
+/// The time of a scene that ends the process that renders it.
+const POISON: f64 = -13.0;
 
 /// The worker that the fault test starts as a process of its own; run by itself it does nothing.
 #[tokio::test(flavor = "multi_thread")]
@@ -44,7 +46,13 @@ async fn worker_process() {
         heartbeat: Duration::from_secs(1),
         build: "test".into(),
     };
-    Worker::new(jobs, Fake::with(|_| Ok(FRAME)), settings)
+    let renderer = Fake::with(|order| {
+        if order.scene.time_s == POISON {
+            std::process::abort();
+        }
+        Ok(FRAME)
+    });
+    Worker::new(jobs, renderer, settings)
         .run(std::future::pending())
         .await;
 }
@@ -77,6 +85,12 @@ impl Crew {
                 .spawn();
             self.workers.push(worker.unwrap());
         }
+    }
+
+    /// Forgets those that have ended by themselves.
+    fn bury(&mut self) {
+        self.workers
+            .retain_mut(|worker| worker.try_wait().unwrap().is_none());
     }
 
     /// kill -9
@@ -179,6 +193,38 @@ async fn no_frame_is_lost_or_spoilt_whatever_goes_down() {
     let folder = object_store::path::Path::from(format!("jobs/{id}/frames"));
     let there: Vec<_> = bucket.list(Some(&folder)).try_collect().await.unwrap();
     assert_eq!(there.len(), FRAMES as usize);
+}
+
+/// A scene that takes its worker with it each time is given up after as many workers, and no other frame is.
+#[tokio::test(flavor = "multi_thread")]
+async fn a_scene_that_ends_its_workers_is_given_up_alone() {
+    let place = Place::new().await;
+    let mut crew = Crew {
+        environment: vec![(QUEUE, place.queue()), (STORE, place.store())],
+        workers: Vec::new(),
+    };
+    let mut document = list(12);
+    document["frames"]["scenes"][5]["time_s"] = POISON.into();
+    document["attempts"] = 2.into();
+    let id = place.send(&document).await;
+    let begun = Instant::now();
+    let status = loop {
+        crew.bury();
+        crew.hire_up_to(2);
+        let status = place.jobs.status(id).await.unwrap();
+        if status.state.has_ended() {
+            break status;
+        }
+        assert!(begun.elapsed() < Duration::from_secs(100), "{status:#?}");
+        tokio::time::sleep(Duration::from_millis(100)).await;
+    };
+    assert_eq!(status.state, State::Failed);
+    assert_eq!((status.counts.done, status.counts.failed), (11, 1), "{status:#?}");
+    let [dead] = &status.failures[..] else {
+        panic!("{status:#?}")
+    };
+    assert_eq!(dead.frame, Some(5));
+    assert!(dead.reason.contains("given up after 2 attempts"), "{dead:?}");
 }
 
 async fn frame(jobs: &Jobs, id: JobId, number: u32) -> Vec<u8> {

@@ -41,6 +41,16 @@ impl Place {
         }
     }
 
+    /// The queue's address.
+    pub(crate) fn queue(&self) -> String {
+        format!("sqlite:{}", self.folder.path().join("queue.db").display())
+    }
+
+    /// The store's address.
+    pub(crate) fn store(&self) -> String {
+        format!("file:{}", self.results().display())
+    }
+
     pub(crate) fn results(&self) -> PathBuf {
         self.folder.path().join("results")
     }

@@ -14,13 +14,17 @@ use apalis_board_api::{
 };
 use axum::{
     Router,
-    extract::Request,
+    extract::{Request, State},
     http::{HeaderValue, Method, Uri, header},
     middleware::{Next, from_fn},
-    response::{IntoResponse, Response},
+    response::{
+        IntoResponse, Response,
+        sse::{Event, KeepAlive, Sse},
+    },
     routing::get,
 };
-use std::sync::OnceLock;
+use futures_util::stream;
+use std::{convert::Infallible, sync::OnceLock};
 use tower_http::set_header::SetResponseHeaderLayer;
 use welkin_jobs::{Board, Jobs};
 
@@ -80,6 +84,7 @@ pub(crate) fn routes(service: &Service) -> Router<Service> {
     Router::new()
         .route(PLACE, get(page))
         .route("/jobs/{*file}", get(file))
+        .route("/jobs/api/v1/events", get(events))
         .nest("/jobs/api/v1", asked.with_state(()))
         .layer(from_fn(only_look))
         .layer(SetResponseHeaderLayer::overriding(
@@ -118,6 +123,18 @@ async fn only_look(request: Request, next: Next) -> Result<Response, Error> {
         }
     }
     Ok(next.run(request).await)
+}
+
+/// What the board takes for the log, and the lack of it for illness: a stream that says nothing. The log is for who runs
+/// the server, on its standard error.
+async fn events(State(service): State<Service>) -> impl IntoResponse {
+    let mut stopping = service.stopping();
+    let silence = stream::once(async move {
+        // Where nobody can say it any more, the end has come too.
+        let _ = stopping.wait_for(|stop| *stop).await;
+        Ok::<_, Infallible>(Event::default().comment("the end"))
+    });
+    Sse::new(silence).keep_alive(KeepAlive::default())
 }
 
 async fn page() -> Response {
