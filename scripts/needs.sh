@@ -8,6 +8,9 @@ has_node() { have node; }
 has_npm() { have npm; }
 has_curl() { have curl; }
 # As the browser tests look for it.
+has_postgres() { have initdb || compgen -G '/usr/lib/postgresql/*/bin/initdb' >/dev/null; }
+has_ffmpeg() { have ffmpeg; }
+has_pip() { have python3 && python3 -m pip --version >/dev/null 2>&1; }
 has_chromium() { [[ -x ${CHROMIUM:-/usr/bin/chromium} ]]; }
 
 # Apple's machines render by Metal, which is always there.
@@ -36,6 +39,9 @@ needs_of() {
     echo has_curl curl
     echo has_node nodejs
     echo has_npm npm
+    echo has_postgres postgresql
+    echo has_ffmpeg ffmpeg
+    echo has_pip python3-pip
   else
     echo has_vulkan_driver mesa-vulkan-drivers
   fi
@@ -43,6 +49,6 @@ needs_of() {
 
 words_of() {
   local words='a C compiler with make, pkg-config, the Vulkan loader and a Vulkan driver such as Mesa'\''s lavapipe'
-  [[ $1 == test ]] && words+=', Chromium (CHROMIUM holds its path), curl, Node.js and npm'
+  [[ $1 == test ]] && words+=', Chromium (CHROMIUM holds its path), curl, Node.js and npm, PostgreSQL, ffmpeg, Python with pip'
   echo "$words"
 }

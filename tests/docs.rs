@@ -33,6 +33,14 @@ impl Server {
         let process = Command::new(WELKIN)
             .args(["serve", "--listen", &address])
             .env("WELKIN_ASSETS", assets())
+            .env(
+                "WELKIN_QUEUE",
+                format!("sqlite:{}", assets().join("jobs.db").display()),
+            )
+            .env(
+                "WELKIN_STORE",
+                format!("file:{}", assets().join("results").display()),
+            )
             .spawn()
             .unwrap();
         let mut server = Self { process, address };

@@ -8,6 +8,7 @@ mod air;
 mod baseline;
 mod clouds;
 mod ground;
+mod jobs;
 mod page;
 mod pillars;
 mod plots;
@@ -33,12 +34,13 @@ use stopwatch::Spent;
 use welkin_scene::renderer::{DeviceInfo, PassTime};
 
 /// All cases.
-pub(crate) static CASES: [&dyn Case; 5] = [
+pub(crate) static CASES: [&dyn Case; 6] = [
     &sky::Sky,
     &air::Air,
     &clouds::CloudCase,
     &ground::Ground,
     &pillars::Pillars,
+    &jobs::JobCase,
 ];
 
 /// Something to measure.

@@ -18,6 +18,16 @@ pub(crate) struct Spent {
     pub(crate) cpu_ms: Option<f64>,
 }
 
+impl Spent {
+    /// Of other processes, whose own time is not told.
+    pub(crate) fn on_the_clock(took: Duration) -> Self {
+        Self {
+            wall_ms: took.as_secs_f64() * 1e3,
+            cpu_ms: None,
+        }
+    }
+}
+
 impl Stopwatch {
     pub(crate) fn start() -> Self {
         // The dearer call first, so that it does not count.

@@ -15,15 +15,15 @@ use std::{
 /// Arguments of `welkin bench`.
 #[derive(clap::Args)]
 pub(crate) struct Args {
-    /// What to measure: sky, air, clouds, pillars [default: all]
+    /// What to measure: sky, air, clouds, ground, pillars, jobs [default: all]
     name: Option<String>,
-    /// Of how many runs each figure is the median [default: 7; clouds, pillars: 3]
+    /// Of how many runs each figure is the median [default: 7; clouds, ground, pillars: 3; jobs: 1]
     #[arg(long, value_name = "COUNT", value_parser = clap::value_parser!(u32).range(1..))]
     rounds: Option<u32>,
     /// Sizes of frames instead of the case's own, for example 640x360,1920x1080
     #[arg(long, value_name = "SIZES", value_delimiter = ',')]
     sizes: Option<Vec<Size>>,
-    /// Only these tables, for example changes,truth; of the cases only clouds has any
+    /// Only these tables, for example changes,truth; of the cases only clouds and ground have some
     #[arg(long, value_name = "TABLES", value_delimiter = ',')]
     tables: Option<Vec<String>>,
     /// Folder whose run.py measures the baseline beside it

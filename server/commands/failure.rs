@@ -3,6 +3,7 @@
 use serde_json::{Value, json};
 use std::{io, process::ExitCode};
 use welkin_encode::EncodeError;
+use welkin_jobs::JobError;
 use welkin_scene::{problem::SceneError, renderer::RenderError};
 use welkin_service::StartError;
 
@@ -41,6 +42,15 @@ pub(crate) enum Failure {
     /// The service could not be started.
     #[error(transparent)]
     Start(#[from] StartError),
+    /// The queue of jobs or the store of their results failed.
+    #[error(transparent)]
+    Jobs(#[from] JobError),
+    /// The server refused, or could not be reached.
+    #[error("{0}")]
+    Server(String),
+    /// A job ended, and not well.
+    #[error("{0}")]
+    Job(String),
     /// A benchmark could not measure, or found a promise broken.
     #[error("{0}")]
     Bench(String),
@@ -72,6 +82,9 @@ impl Failure {
             | Self::File { .. }
             | Self::Assets(_)
             | Self::Start(_)
+            | Self::Jobs(_)
+            | Self::Server(_)
+            | Self::Job(_)
             | Self::Bench(_) => 1,
             // What shells give for an interrupt.
             Self::Interrupted => 130,
@@ -100,6 +113,8 @@ impl Failure {
             Self::Encode(_) => "Not encoded",
             Self::File { .. } | Self::Assets(_) => "Not read or written",
             Self::Start(_) => "Not started",
+            Self::Jobs(_) | Self::Job(_) => "Job not done",
+            Self::Server(_) => "No answer as hoped",
             Self::Bench(_) => "Not measured, or not as promised",
             Self::Interrupted => "Interrupted",
         };

@@ -2,9 +2,11 @@
 
 mod assets;
 mod bench;
+mod client;
 mod devices;
 mod document;
 mod failure;
+mod jobs;
 mod logging;
 mod output;
 mod presets;
@@ -13,8 +15,10 @@ mod render;
 mod scene;
 mod schema;
 mod serve;
+mod submit;
 mod version;
 mod waiting;
+mod worker;
 
 pub(crate) use failure::Failure;
 pub(crate) use version::build;
@@ -46,6 +50,12 @@ struct Cli {
 enum Command {
     /// Serve the page and the interface for programs
     Serve(serve::Args),
+    /// Work on jobs from a queue, on this machine or another than the server's
+    Worker(worker::Args),
+    /// Send a job to a server
+    Submit(submit::Args),
+    /// List the jobs of a server, or watch, fetch or stop one
+    Jobs(jobs::Args),
     /// Render one frame to a file
     Render(render::Args),
     /// Print radiance, transmittance and irradiance at exact directions, as JSON
@@ -72,6 +82,9 @@ pub(crate) fn run() -> ExitCode {
     let config = config.as_deref();
     let done = match command {
         Command::Serve(args) => serve::run(&args, config),
+        Command::Worker(args) => worker::run(&args, config),
+        Command::Submit(args) => submit::run(&args, json),
+        Command::Jobs(args) => jobs::run(&args, json),
         Command::Render(args) => render::run(&args, config),
         Command::Probe(args) => probe::run(&args, config),
         Command::Scene(args) => scene::run(&args, json),

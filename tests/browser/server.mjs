@@ -38,7 +38,7 @@ export async function startServer(more = []) {
   let child;
   let log = '';
   const start = async () => {
-    child = spawn(PROGRAM, ['serve', '--listen', `127.0.0.1:${port}`, '--assets', assets, ...more], { stdio: ['ignore', 'pipe', 'pipe'] });
+    child = spawn(PROGRAM, ['serve', '--listen', `127.0.0.1:${port}`, '--assets', assets, '--queue', `sqlite:${join(assets, 'jobs.db')}`, '--store', `file:${join(assets, 'results')}`, ...more], { stdio: ['ignore', 'pipe', 'pipe'] });
     child.on('error', (error) => (log += error.message));
     for (const stream of [child.stdout, child.stderr]) stream?.on('data', (data) => (log += data));
     for (const end = Date.now() + START_MS; !(await isReady(url)); await new Promise((r) => setTimeout(r, 100))) {

@@ -32,6 +32,12 @@ export const postProbe = async (request) => (await post('v1/probe', request)).js
 /** The scene that a weather report tells. @param {{metar: string, date: string | null}} report @returns {Promise<any>} */
 export const postReport = async (report) => (await post('v1/scenes/from-metar', report)).json();
 
+/** Stops a job. @param {string} id */
+export async function stopJob(id) {
+  const response = await fetch(`v1/jobs/${id}`, { method: 'DELETE' });
+  if (!response.ok) throw await failure(response);
+}
+
 const ASSETS = 'v1/assets';
 
 /** @typedef {import('./assets.js').Kind} Kind */

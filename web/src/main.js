@@ -12,6 +12,7 @@ import { createGallery } from './gallery.js';
 import { listenToGestures } from './gestures.js';
 import { createHud } from './hud.js';
 import { createLamps } from './lamps/drawer.js';
+import { createJobs } from './jobs.js';
 import { bindings, fillHelp, listenToKeys } from './keys.js';
 import { createMark } from './mark.js';
 import { createMoon } from './moon.js';
@@ -71,7 +72,7 @@ async function start() {
   };
   const panel = createPanel(store, (value, fresh) => carryOver(value, fresh, known), known, suggestions);
   const narrow = window.matchMedia('(max-width: 720px)');
-  const drawers = createDrawers({ gallery, painter, lamps }, () => narrow.matches && panel.show(false));
+  const drawers = createDrawers({ gallery, painter, lamps, jobs: createJobs() }, () => narrow.matches && panel.show(false));
   panel.onShow(() => narrow.matches && drawers.close());
   createShare(store, address.link, stage.size);
   const save = createSave(store, stage.size);

@@ -12,10 +12,13 @@ use crate::{
 };
 use exr::prelude::*;
 use std::io::Cursor;
-use welkin_scene::{frame::Format, renderer::Frame};
+use welkin_scene::{
+    frame::Format,
+    renderer::{Frame, FrameFacts},
+};
 
 /// ITU-R BT.709-6, table 1.
-const REC_709: attribute::Chromaticities = attribute::Chromaticities {
+pub(crate) const REC_709: attribute::Chromaticities = attribute::Chromaticities {
     red: Vec2(0.64, 0.33),
     green: Vec2(0.30, 0.60),
     blue: Vec2(0.15, 0.06),
@@ -32,7 +35,7 @@ pub(crate) fn encode_half(frame: &Frame, options: &Options) -> std::result::Resu
         .iter()
         .filter(|sample| sample.abs() > largest)
         .count();
-    let mut attributes = attributes(frame, options);
+    let mut attributes = attributes(&frame.facts, options);
     let clamped = AttributeValue::I32(i32::try_from(clamped).unwrap_or(i32::MAX));
     attributes.other.insert(Text::from("clampedSamples"), clamped);
     write(&view, Format::Exr, attributes, move |sample| {
@@ -43,9 +46,12 @@ pub(crate) fn encode_half(frame: &Frame, options: &Options) -> std::result::Resu
 /// 32-bit floats, exact.
 pub(crate) fn encode_float(frame: &Frame, options: &Options) -> std::result::Result<Vec<u8>, EncodeError> {
     let view = pixels::linear(frame, Format::ExrFloat)?;
-    write(&view, Format::ExrFloat, attributes(frame, options), |sample| {
-        sample
-    })
+    write(
+        &view,
+        Format::ExrFloat,
+        attributes(&frame.facts, options),
+        |sample| sample,
+    )
 }
 
 /// Samples are converted as the blocks are compressed, so the frame is never copied whole.
@@ -84,10 +90,10 @@ fn write<T: IntoSample>(
     clippy::cast_possible_truncation,
     reason = "EXR's vectors are of 32-bit floats"
 )]
-fn attributes(frame: &Frame, options: &Options) -> LayerAttributes {
+pub(crate) fn attributes(facts: &FrameFacts, options: &Options) -> LayerAttributes {
     let text = |text: &str| Text::from(ascii(text).as_str());
-    let sun = frame.facts.sun;
-    let [r, g, b] = frame.facts.sun_irradiance_w_m2.map(|value| value as f32);
+    let sun = facts.sun;
+    let [r, g, b] = facts.sun_irradiance_w_m2.map(|value| value as f32);
     let mut attributes = LayerAttributes {
         software_name: Some(text(&options.software)),
         ..Default::default()
@@ -96,8 +102,8 @@ fn attributes(frame: &Frame, options: &Options) -> LayerAttributes {
     add("sunAzimuthDeg", AttributeValue::F32(sun.azimuth_deg as f32));
     add("sunElevationDeg", AttributeValue::F32(sun.elevation_deg as f32));
     add("sunIrradiance", AttributeValue::FloatVec3((r, g, b)));
-    if let Some(moon) = frame.facts.moon {
-        let [r, g, b] = frame.facts.moon_irradiance_w_m2.map(|value| value as f32);
+    if let Some(moon) = facts.moon {
+        let [r, g, b] = facts.moon_irradiance_w_m2.map(|value| value as f32);
         add("moonAzimuthDeg", AttributeValue::F32(moon.azimuth_deg as f32));
         add("moonElevationDeg", AttributeValue::F32(moon.elevation_deg as f32));
         add("moonIrradiance", AttributeValue::FloatVec3((r, g, b)));

@@ -19,10 +19,12 @@ mod png;
 mod raw;
 #[cfg(test)]
 mod sample;
+mod tiled;
 
 pub use accept::format_from_accept;
 pub use error::EncodeError;
 pub use names::{OFFERED_MEDIA_TYPES, file_extension, format_from_path, media_type, output_for};
+pub use tiled::{Tiles, decode_exr, write_tiled_exr};
 
 use welkin_scene::{frame::Format, renderer::Frame};
 

@@ -2,7 +2,10 @@
 
 use crate::{frame_job::TileBudget, uniforms::TileUniform};
 use glam::UVec2;
-use welkin_scene::refinement::{PASSES, STRIDE, first_of};
+use welkin_scene::{
+    job::Window,
+    refinement::{PASSES, STRIDE, first_of},
+};
 
 /// Pixels of a frame, evenly apart.
 #[derive(Clone, Copy, Debug)]
@@ -16,11 +19,12 @@ pub(crate) struct Area {
 }
 
 impl Area {
-    pub(crate) const fn whole(frame: UVec2) -> Self {
+    /// A part of a frame.
+    pub(crate) const fn window(window: Window) -> Self {
         Self {
-            first: UVec2::ZERO,
+            first: UVec2::new(window.x_px, window.y_px),
             stride: 1,
-            size: frame,
+            size: UVec2::new(window.width_px, window.height_px),
             pass: PASSES,
         }
     }
@@ -90,6 +94,12 @@ mod tests {
     fn every_pixel_is_computed_once_and_in_its_pass() {
         for (width, height) in [(1, 1), (3, 2), (5, 4), (64, 36), (97, 61), (640, 3)] {
             let frame = UVec2::new(width, height);
+            let whole = Window {
+                x_px: 0,
+                y_px: 0,
+                width_px: width,
+                height_px: height,
+            };
             for budget in [7, 100, 1 << 9, 1 << 18] {
                 let pixels = (0..height).flat_map(|y| (0..width).map(move |x| pass_of(x, y)));
                 assert_eq!(
@@ -97,7 +107,7 @@ mod tests {
                     pixels.collect::<Vec<_>>()
                 );
                 assert_eq!(
-                    passes_of(&[Area::whole(frame)], frame, budget),
+                    passes_of(&[Area::window(whole)], frame, budget),
                     vec![PASSES; (width * height) as usize]
                 );
             }

@@ -7,6 +7,7 @@ use glam::UVec2;
 use std::{collections::VecDeque, ops::Range, sync::Arc, time::Instant};
 use welkin_scene::{
     Quality, Scene,
+    job::Window,
     renderer::{Frame, FrameFacts, FrameOrder, OnPass, Output, PassTime, Pixels, Refined},
 };
 
@@ -85,6 +86,8 @@ impl TileBudget {
 /// A frame on its way.
 pub(crate) struct FrameJob {
     order: FrameOrder,
+    /// The part of the frame that was asked for.
+    window: Window,
     /// Told of each pass but the last, where the frame is to be refined.
     seen: Option<OnPass>,
     prepared: Option<Prepared>,
@@ -99,10 +102,17 @@ pub(crate) struct FrameJob {
 
 impl FrameJob {
     pub(crate) fn new(order: FrameOrder, seen: Option<OnPass>) -> Self {
+        let window = whole(&order);
+        Self::windowed(order, window, seen)
+    }
+
+    /// A part of a frame: the same pixels as the whole frame has there.
+    pub(crate) fn windowed(order: FrameOrder, window: Window, seen: Option<OnPass>) -> Self {
         // The pixels get their memory with the first work: orders that wait hold none.
         let pixels = Pixels::Display(Vec::new());
         Self {
             order,
+            window,
             seen,
             prepared: None,
             areas: VecDeque::new(),
@@ -111,6 +121,11 @@ impl FrameJob {
             passes: Vec::new(),
             ev100: None,
         }
+    }
+
+    /// True where all of the frame was asked for.
+    pub(crate) fn is_whole(&self) -> bool {
+        self.window == whole(&self.order)
     }
 
     pub(crate) const fn order(&self) -> &FrameOrder {
@@ -129,19 +144,20 @@ impl FrameJob {
             .is_some_and(|p| p.generation != engine.generation)
         {
             // The device that held the tables is gone.
-            *self = Self::new(self.order.clone(), self.seen.take());
+            *self = Self::windowed(self.order.clone(), self.window, self.seen.take());
         }
-        let size = UVec2::new(self.order.width_px, self.order.height_px);
+        let size = UVec2::new(self.window.width_px, self.window.height_px);
         let (Some(prepared), Some(area)) = (&self.prepared, self.areas.front().copied()) else {
             let (prepared, times) = engine.prepare(&self.order)?;
             add_times(&mut self.passes, times);
             let in_passes = self.seen.is_some()
+                && self.is_whole()
                 && self.order.quality == Quality::Final
                 && !budget.is_quick(size, prepared.work_per_pixel());
             self.areas = if in_passes {
                 Area::passes(size).into()
             } else {
-                VecDeque::from([Area::whole(size)])
+                VecDeque::from([Area::window(self.window)])
             };
             self.prepared = Some(prepared);
             let values = 3 * size.x as usize * size.y as usize;
@@ -154,9 +170,14 @@ impl FrameJob {
         let work = prepared.work_per_pixel();
         let (tile, next) = area.tile(budget, self.at, work);
         let pixels = &mut self.pixels;
+        let corner = UVec2::new(self.window.x_px, self.window.y_px);
+        let placed = TileUniform {
+            origin_px: tile.origin_px - corner,
+            ..tile
+        };
         let begun = Instant::now();
         let ((), ev100, times) = engine.tile(&self.order, prepared, tile, |bytes| {
-            place(pixels, size, tile, bytes)
+            place(pixels, size, placed, bytes)
         })?;
         budget.learn(tile.size_px, work, begun.elapsed().as_secs_f64() * 1e3);
         add_times(&mut self.passes, times);
@@ -187,6 +208,15 @@ impl FrameJob {
             });
         }
         Ok(None)
+    }
+}
+
+fn whole(order: &FrameOrder) -> Window {
+    Window {
+        x_px: 0,
+        y_px: 0,
+        width_px: order.width_px,
+        height_px: order.height_px,
     }
 }
 

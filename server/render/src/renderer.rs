@@ -24,6 +24,7 @@ use std::{
 use welkin_scene::{
     ProbeAnswer, Quality, Scene,
     frame::MAX_SIDE_PX,
+    job::{MAX_PANORAMA_PX, Window},
     renderer::{
         DeviceInfo, Frame, FrameOrder, OnPass, Output, Priority, ProbeOrder, Render, RenderError, Reply,
     },
@@ -156,6 +157,32 @@ impl Renderer {
         self.order(|answer| Work::Frame(Box::new(FrameJob::new(order, seen)), answer))
     }
 
+    fn queue_window(&self, order: FrameOrder, window: Window) -> Reply<Arc<Frame>> {
+        let beyond =
+            |first: u32, size: u32, whole: u32| first.checked_add(size).is_none_or(|end| end > whole);
+        let side = |px: u32, most: u32| (1..=most).contains(&px);
+        let fits = side(order.width_px, MAX_PANORAMA_PX)
+            && side(order.height_px, MAX_PANORAMA_PX)
+            && side(window.width_px, MAX_SIDE_PX)
+            && side(window.height_px, MAX_SIDE_PX)
+            && !beyond(window.x_px, window.width_px, order.width_px)
+            && !beyond(window.y_px, window.height_px, order.height_px);
+        if fits {
+            return self
+                .order(|answer| Work::Frame(Box::new(FrameJob::windowed(order, window, None)), answer));
+        }
+        Box::pin(async move {
+            Err(RenderError::Size {
+                width_px: order.width_px,
+                height_px: order.height_px,
+                reason: format!(
+                    "a part of a frame must lie in it and have sides of 1 to {MAX_SIDE_PX} pixels, the frame 1 to \
+                     {MAX_PANORAMA_PX}"
+                ),
+            })
+        })
+    }
+
     fn order<T: Send + 'static>(&self, work: impl FnOnce(Answer<T>) -> Work) -> Reply<T> {
         let shared = &self.shared;
         if shared.taken.fetch_add(1, Ordering::AcqRel) >= shared.places {
@@ -191,6 +218,10 @@ impl Render for Renderer {
 
     fn refine(&self, order: FrameOrder, seen: OnPass) -> Reply<Arc<Frame>> {
         self.queue_frame(order, Some(seen))
+    }
+
+    fn window(&self, order: FrameOrder, window: Window) -> Reply<Arc<Frame>> {
+        self.queue_window(order, window)
     }
 
     fn probe(&self, order: ProbeOrder) -> Reply<ProbeAnswer> {
@@ -296,14 +327,16 @@ impl Worker {
         };
         match work {
             Work::Frame(mut job, answer) => {
-                if let Some(frame) = self.kept.find(job.order()) {
+                if let Some(frame) = self.kept.find(job.order()).filter(|_| job.is_whole()) {
                     answer.send(Ok(frame));
                     return Ok(None);
                 }
                 match job.step(engine, &mut self.budget) {
                     Ok(None) => return Ok(Some(Work::Frame(job, answer))),
                     Ok(Some(frame)) => {
-                        self.kept.keep(job.order().clone(), &frame);
+                        if job.is_whole() {
+                            self.kept.keep(job.order().clone(), &frame);
+                        }
                         answer.send(Ok(frame));
                     }
                     Err(error) => return Err((Work::Frame(job, answer), error)),

@@ -118,7 +118,7 @@ impl Check for ProbeRequest {
     }
 }
 
-fn direction(direction: &Direction, at: &str, problems: &mut Problems) {
+pub(crate) fn direction(direction: &Direction, at: &str, problems: &mut Problems) {
     if let Direction::Vector(v) = direction
         && *v == [0.0; 3]
     {

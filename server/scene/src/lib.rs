@@ -20,6 +20,7 @@ mod explain;
 pub mod frame;
 pub mod haze;
 pub mod ice_crystals;
+pub mod job;
 pub mod lights;
 pub mod lunar;
 pub mod metar;
@@ -57,6 +58,7 @@ pub use document::Scene;
 pub use frame::{Format, FrameRequest, Quality};
 pub use haze::Haze;
 pub use ice_crystals::{CrystalLayer, IceCrystals};
+pub use job::{JobPlan, JobRequest};
 pub use lights::{Light, Town};
 pub use lunar::MoonSeen;
 pub use metar::{MetarAnswer, MetarRequest, ReportFault};
@@ -67,8 +69,8 @@ pub use preset::{Preset, preset, presets};
 pub use probe::{Irradiance, ProbeAnswer, ProbeRequest, SunPlace};
 pub use problem::{Problem, SceneError};
 pub use schema::{
-    frame_request_schema, metar_answer_schema, metar_request_schema, probe_request_schema, scene_schema,
-    timeline_schema,
+    frame_request_schema, job_request_schema, metar_answer_schema, metar_request_schema,
+    probe_request_schema, scene_schema, timeline_schema,
 };
 pub use shafts::Shafts;
 pub use stars::{Orientation, Stars};

@@ -5,11 +5,13 @@ use crate::{
     document::Scene,
     explain::explain,
     frame::{FrameDocument, FrameRequest, Source},
+    job::JobRequest,
     metar::MetarRequest,
     probe::ProbeRequest,
     problem::{Problem, Problems, SceneError, echo, member},
     schema::{
-        frame_request_schema, metar_request_schema, probe_request_schema, scene_schema, timeline_schema,
+        frame_request_schema, job_request_schema, metar_request_schema, probe_request_schema, scene_schema,
+        timeline_schema,
     },
     timeline::Timeline,
 };
@@ -40,6 +42,7 @@ impl Rules {
 
 static SCENE: LazyLock<Rules> = LazyLock::new(|| Rules::new(scene_schema()));
 static FRAME: LazyLock<Rules> = LazyLock::new(|| Rules::new(frame_request_schema()));
+static JOB: LazyLock<Rules> = LazyLock::new(|| Rules::new(job_request_schema()));
 static TIMELINE: LazyLock<Rules> = LazyLock::new(|| Rules::new(timeline_schema()));
 static METAR: LazyLock<Rules> = LazyLock::new(|| Rules::new(metar_request_schema()));
 static PROBE: LazyLock<Rules> = LazyLock::new(|| Rules::new(probe_request_schema()));
@@ -97,7 +100,7 @@ impl FrameRequest {
     }
 }
 
-readable!(Scene by SCENE, ProbeRequest by PROBE, MetarRequest by METAR, Timeline by TIMELINE);
+readable!(Scene by SCENE, JobRequest by JOB, ProbeRequest by PROBE, MetarRequest by METAR, Timeline by TIMELINE);
 
 fn read<T: DeserializeOwned + Check>(rules: &Rules, value: &Value) -> Result<T, SceneError> {
     if !rules.validator.is_valid(value) {

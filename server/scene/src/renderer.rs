@@ -4,10 +4,11 @@ use crate::{
     assets::SceneAssets,
     document::Scene,
     frame::Quality,
+    job::Window,
     moon::MoonPlace,
     probe::{ProbeAnswer, ProbeRequest, SunPlace},
 };
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use std::{future::Future, pin::Pin, sync::Arc};
 
 /// The answer that a renderer will give. Dropping it cancels the work at the next tile.
@@ -32,6 +33,9 @@ pub trait Render: Send + Sync {
     /// The same frame in the order of [`crate::refinement`], each pixel once; `seen` is told of each pass but the last. A
     /// frame that is quickly done, or that was kept, is made at once, as is a preview.
     fn refine(&self, order: FrameOrder, seen: OnPass) -> Reply<Arc<Frame>>;
+    /// A part of a frame: the same pixels as the whole frame has there. The frame's sides are 1 to
+    /// [`crate::job::MAX_PANORAMA_PX`] pixels, the part's as those of a frame.
+    fn window(&self, order: FrameOrder, window: Window) -> Reply<Arc<Frame>>;
     /// Radiance at exact directions.
     fn probe(&self, order: ProbeOrder) -> Reply<ProbeAnswer>;
     /// The device that renders.
@@ -128,7 +132,7 @@ pub struct PassTime {
 }
 
 /// What a frame says of itself.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct FrameFacts {
     /// Where the sun stands at the scene's origin.
     pub sun: SunPlace,

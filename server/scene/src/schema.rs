@@ -4,6 +4,7 @@
 use crate::{
     document::Scene,
     frame::FrameDocument,
+    job::JobRequest,
     metar::{MetarAnswer, MetarRequest},
     probe::ProbeRequest,
     timeline::Timeline,
@@ -21,6 +22,12 @@ pub fn scene_schema() -> Value {
 #[must_use]
 pub fn frame_request_schema() -> Value {
     derive::<FrameDocument>()
+}
+
+/// The schema of [`JobRequest`].
+#[must_use]
+pub fn job_request_schema() -> Value {
+    derive::<JobRequest>()
 }
 
 /// The schema of [`Timeline`].

@@ -15,6 +15,20 @@ pub(crate) const MAX_BODY_BYTES: usize = 1 << 20;
 /// Text announced as JSON.
 pub(crate) struct JsonText(pub(crate) String);
 
+/// The document of a job, announced as JSON: it may list thousands of scenes.
+pub(crate) struct JobText(pub(crate) String);
+
+/// The longest document of a job, bytes.
+pub(crate) const MAX_JOB_BYTES: usize = 64 << 20;
+
+impl<S: Send + Sync> FromRequest<S> for JobText {
+    type Rejection = Error;
+
+    async fn from_request(request: Request, state: &S) -> Result<Self, Error> {
+        json(request, state, MAX_JOB_BYTES as u64).await.map(Self)
+    }
+}
+
 /// How long a body may take; set by the router for the message of [`Error::Slow`].
 #[derive(Clone, Copy)]
 pub(crate) struct BodyTimeout(pub(crate) Duration);
@@ -23,26 +37,27 @@ impl<S: Send + Sync> FromRequest<S> for JsonText {
     type Rejection = Error;
 
     async fn from_request(request: Request, state: &S) -> Result<Self, Error> {
-        let kind = request.headers().get(header::CONTENT_TYPE);
-        let found = kind
-            .map_or("nothing", |value| value.to_str().unwrap_or("unreadable text"))
-            .to_owned();
-        let essence = found
-            .split(';')
-            .next()
-            .unwrap_or_default()
-            .trim()
-            .to_ascii_lowercase();
-        if essence != "application/json"
-            && !(essence.starts_with("application/") && essence.ends_with("+json"))
-        {
-            return Err(Error::MediaType { found });
-        }
-        let bytes = bounded(request, state, MAX_BODY_BYTES as u64).await?;
-        String::from_utf8(bytes.into())
-            .map(Self)
-            .map_err(|e| Error::Body(format!("it is not UTF-8: {e}")))
+        json(request, state, MAX_BODY_BYTES as u64).await.map(Self)
     }
+}
+
+/// A body that is announced as JSON, as text.
+async fn json<S: Send + Sync>(request: Request, state: &S, limit_bytes: u64) -> Result<String, Error> {
+    let kind = request.headers().get(header::CONTENT_TYPE);
+    let found = kind
+        .map_or("nothing", |value| value.to_str().unwrap_or("unreadable text"))
+        .to_owned();
+    let essence = found
+        .split(';')
+        .next()
+        .unwrap_or_default()
+        .trim()
+        .to_ascii_lowercase();
+    if essence != "application/json" && !(essence.starts_with("application/") && essence.ends_with("+json")) {
+        return Err(Error::MediaType { found });
+    }
+    let bytes = bounded(request, state, limit_bytes).await?;
+    String::from_utf8(bytes.into()).map_err(|e| Error::Body(format!("it is not UTF-8: {e}")))
 }
 
 /// A body of bytes. One whose announced length is too large is not read at all.

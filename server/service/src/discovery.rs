@@ -67,6 +67,13 @@ pub(crate) async fn timeline_schema() -> Json<Value> {
     Json(schema::timeline_schema())
 }
 
+/// JSON Schema (draft 2020-12) of a job.
+#[utoipa::path(get, path = "/v1/schema/job", tag = "discovery", responses(
+    (status = 200, description = "The schema", content_type = "application/schema+json", body = Object)))]
+pub(crate) async fn job_schema() -> Json<Value> {
+    Json(schema::job_request_schema())
+}
+
 /// JSON Schema (draft 2020-12) of a probe request.
 #[utoipa::path(get, path = "/v1/schema/probe", tag = "discovery", responses(
     (status = 200, description = "The schema", content_type = "application/schema+json", body = Object)))]

@@ -55,6 +55,15 @@ pub(crate) enum Error {
     /// This server has no place for assets.
     #[error("this server keeps no assets; started with --assets, it keeps them in the folder named there")]
     NoAssets,
+    /// This server has no jobs.
+    #[error("this server takes no jobs; started with --queue and --store, it keeps them there")]
+    NoJobs,
+    /// An idempotency key that stands for another document.
+    #[error("{0}")]
+    KeyTaken(String),
+    /// The queue of jobs, or the store of their results, does not answer.
+    #[error("the queue of jobs or the store of their results does not answer; try again in 5 s")]
+    Unreachable { cause: String },
     /// Not a file of the kind that it is sent as.
     #[error("{0}")]
     WrongFile(String),
@@ -227,8 +236,10 @@ impl Error {
     pub(crate) const fn status(&self) -> StatusCode {
         match self {
             Self::Malformed { .. } | Self::Body(_) => StatusCode::BAD_REQUEST,
-            Self::Invalid(_) | Self::Report(_) | Self::BadFile(_) => StatusCode::UNPROCESSABLE_ENTITY,
-            Self::NotFound(_) | Self::NoAssets => StatusCode::NOT_FOUND,
+            Self::Invalid(_) | Self::Report(_) | Self::BadFile(_) | Self::KeyTaken(_) => {
+                StatusCode::UNPROCESSABLE_ENTITY
+            }
+            Self::NotFound(_) | Self::NoAssets | Self::NoJobs => StatusCode::NOT_FOUND,
             Self::Method { .. } => StatusCode::METHOD_NOT_ALLOWED,
             Self::NotAcceptable(_) => StatusCode::NOT_ACCEPTABLE,
             Self::Slow { .. } => StatusCode::REQUEST_TIMEOUT,
@@ -237,7 +248,9 @@ impl Error {
             Self::Precondition => StatusCode::PRECONDITION_FAILED,
             Self::NoRoom(_) => StatusCode::INSUFFICIENT_STORAGE,
             Self::Upgrade(_) => StatusCode::UPGRADE_REQUIRED,
-            Self::Busy { .. } | Self::Device { .. } | Self::Stopped => StatusCode::SERVICE_UNAVAILABLE,
+            Self::Busy { .. } | Self::Device { .. } | Self::Unreachable { .. } | Self::Stopped => {
+                StatusCode::SERVICE_UNAVAILABLE
+            }
             Self::Internal { .. } => StatusCode::INTERNAL_SERVER_ERROR,
         }
     }
@@ -247,6 +260,7 @@ impl Error {
         match self {
             Self::Busy { retry_after_s, .. } => Some(*retry_after_s),
             Self::Device { .. } => Some(1),
+            Self::Unreachable { .. } => Some(5),
             _ => None,
         }
     }
@@ -254,7 +268,7 @@ impl Error {
     /// What the log is told and the client is not.
     pub(crate) fn cause(&self) -> Option<&str> {
         match self {
-            Self::Device { cause } | Self::Internal { cause } => Some(cause),
+            Self::Device { cause } | Self::Unreachable { cause } | Self::Internal { cause } => Some(cause),
             _ => None,
         }
     }

@@ -4,9 +4,11 @@
 
 mod assets;
 mod body;
+mod calm;
 mod discovery;
 mod error;
 mod frames;
+mod jobs;
 mod live;
 mod metrics;
 mod openapi;
@@ -21,6 +23,6 @@ mod state;
 mod web;
 
 pub use router::app;
-pub use server::{StartError, listen, serve};
+pub use server::{StartError, listen, serve, tell_operations};
 pub use settings::Settings;
 pub use state::Service;

@@ -23,6 +23,8 @@ const IN_WORK: &str = "welkin_frames_in_work";
 const VIEWERS: &str = "welkin_live_viewers";
 const ASSETS: &str = "welkin_assets";
 const ASSETS_BYTES: &str = "welkin_assets_bytes";
+/// Times of jobs begin with this.
+const JOB_TIMES: &str = "welkin_job_";
 const LIVE_FRAMES: &str = "welkin_live_frames_total";
 
 /// From a tenth of a millisecond, a table pass on a GPU, to minutes, a 16k frame on a CPU.
@@ -49,6 +51,10 @@ fn install() -> Result<PrometheusHandle, String> {
             .set_buckets_for_metric(matcher, &BUCKETS_S)
             .map_err(|e| e.to_string())?;
     }
+    let jobs = Matcher::Prefix(JOB_TIMES.to_owned());
+    let builder = builder
+        .set_buckets_for_metric(jobs, &BUCKETS_S)
+        .map_err(|e| e.to_string())?;
     let handle = builder.install_recorder().map_err(|e| e.to_string())?;
     describe_counter!(
         FRAMES,

@@ -1,6 +1,9 @@
 //! The OpenAPI document: the routes as they are annotated, the schemas as the scene crate derives them.
 
-use crate::{assets::document as assets, error::Error, live::document as live, problem::component};
+use crate::{
+    assets::document as assets, error::Error, jobs::document as jobs, live::document as live,
+    problem::component,
+};
 use axum::{
     Json,
     http::{HeaderValue, StatusCode},
@@ -127,6 +130,9 @@ pub(crate) fn complete(routes: &utoipa::openapi::OpenApi, build: &str) -> Result
         ("FrameRequest", schema::frame_request_schema()),
         ("ProbeRequest", schema::probe_request_schema()),
         ("Timeline", schema::timeline_schema()),
+        ("JobRequest", schema::job_request_schema()),
+        ("Job", jobs::job_schema()),
+        ("Jobs", jobs::page_schema()),
         ("MetarRequest", schema::metar_request_schema()),
         ("MetarAnswer", schema::metar_answer_schema()),
         ("ProbeAnswer", schema_for!(ProbeAnswer).to_value()),

@@ -2,10 +2,10 @@
 
 use crate::{
     assets,
-    body::{BodyTimeout, MAX_BODY_BYTES},
+    body::{BodyTimeout, MAX_BODY_BYTES, MAX_JOB_BYTES},
     discovery,
     error::Error,
-    frames, live, metrics, openapi, operations, probe, problem, scenes,
+    frames, jobs, live, metrics, openapi, operations, probe, problem, scenes,
     state::Service,
     web,
 };
@@ -55,6 +55,7 @@ pub fn app(service: Service) -> Result<Router, crate::StartError> {
     let nosniff = HeaderValue::from_static("nosniff");
     Ok(routes
         .merge(docs)
+        .merge(jobs::board::routes(&service))
         .fallback(web::asset)
         .layer(CompressionLayer::new().compress_when(is_text))
         .layer(
@@ -97,6 +98,7 @@ fn documented(service: &Service) -> OpenApiRouter<Service> {
         .routes(routes!(discovery::frame_schema))
         .routes(routes!(discovery::probe_schema))
         .routes(routes!(discovery::timeline_schema))
+        .routes(routes!(discovery::job_schema))
         .routes(routes!(discovery::device))
         .routes(routes!(openapi::openapi))
         .routes(routes!(operations::health))
@@ -110,12 +112,20 @@ fn documented(service: &Service) -> OpenApiRouter<Service> {
             assets::put_asset,
             assets::delete_asset
         ));
+    let batches = OpenApiRouter::new()
+        .routes(routes!(jobs::list_jobs, jobs::post_job))
+        .routes(routes!(jobs::get_job, jobs::delete_job))
+        .routes(routes!(jobs::get_events))
+        .routes(routes!(jobs::get_result));
+    let job_timeout = timeout + Duration::from_secs(MAX_JOB_BYTES as u64 / SLOWEST_UPLOAD);
     let file_bytes = service
         .assets
         .store()
         .map_or(0, |store| store.limits().max_asset_bytes);
     let file_timeout = timeout + Duration::from_secs(file_bytes / SLOWEST_UPLOAD);
-    bounded(documents, timeout, MAX_BODY_BYTES as u64).merge(bounded(files, file_timeout, file_bytes))
+    bounded(documents, timeout, MAX_BODY_BYTES as u64)
+        .merge(bounded(batches, job_timeout, MAX_JOB_BYTES as u64))
+        .merge(bounded(files, file_timeout, file_bytes))
 }
 
 /// Routes whose bodies are no longer than this, in bytes and in time.

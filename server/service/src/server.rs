@@ -1,6 +1,7 @@
 //! Serving on a socket, and ending well.
 
-use crate::state::Service;
+use crate::{metrics, operations, state::Service};
+use axum::{Router, routing::get};
 use hyper_util::{
     rt::{TokioExecutor, TokioIo, TokioTimer},
     server::{conn::auto, graceful::GracefulShutdown},
@@ -105,6 +106,7 @@ pub async fn serve(
     };
     tokio::select! {
         () = accept => {}
+        () = service.count_jobs() => {}
         () = stop => {}
     }
     drop(listener);
@@ -115,4 +117,20 @@ pub async fn serve(
         tracing::warn!("requests still in work are given up");
     }
     Ok(())
+}
+
+/// Tells `/healthz` and `/metrics` of a process that serves nothing else, for as long as it is polled.
+///
+/// # Errors
+/// Where the process already has another recorder of metrics.
+pub fn tell_operations(listener: TcpListener) -> Result<impl Future<Output = ()>, StartError> {
+    metrics::recorder().map_err(|e| StartError::Setup(e.cause().unwrap_or_default().to_owned()))?;
+    let routes = Router::new()
+        .route("/healthz", get(operations::health))
+        .route("/metrics", get(operations::numbers));
+    Ok(async move {
+        if let Err(error) = axum::serve(listener, routes).await {
+            tracing::warn!(%error, "health and metrics are told no more");
+        }
+    })
 }

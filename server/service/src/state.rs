@@ -2,6 +2,7 @@
 
 use crate::{
     assets::Shelf,
+    calm::Attention,
     error::Error,
     frames::picture::Picture,
     metrics::{self, Counted},
@@ -14,6 +15,7 @@ use std::{
 };
 use tokio::sync::{OwnedSemaphorePermit, Semaphore, watch};
 use welkin_encode::EncodeError;
+use welkin_jobs::Jobs;
 use welkin_scene::renderer::{Frame, FrameOrder, Output, Render};
 
 /// The budget is counted in these.
@@ -31,6 +33,8 @@ pub struct Service {
     pub(crate) renderer: Arc<dyn Render>,
     pub(crate) settings: Arc<Settings>,
     pub(crate) assets: Shelf,
+    pub(crate) jobs: Option<Jobs>,
+    pub(crate) attention: Arc<Attention>,
     pub(crate) pictures: Cache<[u8; 32], Arc<Picture>>,
     pub(crate) viewers: Arc<Semaphore>,
     pub(crate) previews: Arc<Semaphore>,
@@ -72,6 +76,8 @@ impl Service {
             refinements: semaphore(LIVE_REFINEMENTS as u64),
             uploads: semaphore(UPLOADS),
             assets: Shelf::default(),
+            jobs: None,
+            attention: Arc::default(),
             memory: semaphore(settings.frame_memory_bytes / BYTES_PER_PERMIT),
             encoders: semaphore(settings.encoders.max(1).into()),
             stopping: watch::Sender::new(false),
@@ -99,7 +105,7 @@ impl Service {
     pub(crate) async fn render(&self, order: FrameOrder) -> Result<Held, Error> {
         let memory = self.reserve(&order, 1).await?;
         let start = Instant::now();
-        let _in_work = Counted::frame_in_work();
+        let _in_work = (Counted::frame_in_work(), self.attention.order());
         let frame = self.renderer.frame(order).await.map_err(|error| {
             metrics::refused(&error);
             Error::from_render(error, self.renderer.device().max_side_px)

@@ -25,3 +25,4 @@ mod projections;
 mod queue;
 mod scenes;
 mod sums;
+mod windows;

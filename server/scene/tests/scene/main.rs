@@ -8,6 +8,7 @@ mod documents;
 mod faults;
 mod geometry;
 mod hostile;
+mod jobs;
 mod metar;
 mod metar_air;
 mod metar_clouds;

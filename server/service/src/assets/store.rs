@@ -14,8 +14,8 @@ pub(crate) struct Shelf {
 }
 
 impl Shelf {
-    pub(crate) fn new(store: Store) -> Self {
-        let store = Some(Arc::new(store));
+    pub(crate) fn new(store: Arc<Store>) -> Self {
+        let store = Some(store);
         let changed = watch::Sender::new(());
         Self { store, changed }
     }
@@ -42,8 +42,8 @@ impl Shelf {
 impl Service {
     /// The same service with a place for assets.
     #[must_use]
-    pub fn with_assets(mut self, store: Store) -> Self {
-        self.assets = Shelf::new(store);
+    pub fn with_assets(mut self, store: impl Into<Arc<Store>>) -> Self {
+        self.assets = Shelf::new(store.into());
         self
     }
 

@@ -7,6 +7,7 @@ use super::{
     view::View,
 };
 use crate::{
+    calm::Attended,
     error::Error,
     metrics::{self, Counted},
     state::{Held, Service},
@@ -40,7 +41,7 @@ pub(crate) struct Refining {
     passes: watch::Receiver<Option<Refined>>,
     memory: Arc<OwnedSemaphorePermit>,
     _turn: OwnedSemaphorePermit,
-    _in_work: Counted,
+    _in_work: (Counted, Attended),
     begun: Instant,
     /// The last pass that was shown, and when.
     shown: (u16, Instant),
@@ -60,6 +61,7 @@ impl Refining {
         let (sender, passes) = watch::channel(None);
         let seen = Box::new(move |refined| drop(sender.send_replace(Some(refined))));
         let begun = Instant::now();
+        let attended = service.attention.order();
         let frame = service.renderer.refine(order, seen);
         Ok(Self {
             service,
@@ -69,7 +71,7 @@ impl Refining {
             passes,
             memory,
             _turn: turn,
-            _in_work: Counted::frame_in_work(),
+            _in_work: (Counted::frame_in_work(), attended),
             begun,
             shown: (0, begun),
         })

@@ -11,6 +11,7 @@ use std::{
 };
 use welkin_scene::{
     Irradiance, ProbeAnswer, Quality,
+    job::Window,
     refinement::PASSES,
     renderer::{
         DeviceInfo, Frame, FrameFacts, FrameOrder, OnPass, Output, PassTime, Pixels, ProbeOrder, Refined,
@@ -117,6 +118,14 @@ impl Render for Fake {
             }
         });
         self.frame(order)
+    }
+
+    fn window(&self, order: FrameOrder, window: Window) -> Reply<Arc<Frame>> {
+        self.frame(FrameOrder {
+            width_px: window.width_px,
+            height_px: window.height_px,
+            ..order
+        })
     }
 
     fn probe(&self, order: ProbeOrder) -> Reply<ProbeAnswer> {

