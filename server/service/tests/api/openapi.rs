@@ -122,6 +122,7 @@ async fn hand_written_schemas_have_the_members_that_are_sent() {
     shelf.put("map", &weather_map(1));
     shelf.put_as(Kind::Heightfields, "hills", &weather_map(1));
     shelf.put_as(Kind::Meshes, "triangle", &triangle(1.0));
+    shelf.put_as(Kind::Lights, "street", b"east_m,north_m\n1,2\n");
     let app = shelf.router(&Fake::new());
     let names = |value: &Value| {
         value
