@@ -24,7 +24,7 @@ pub(crate) fn run(args: &Args, json: bool) -> Result<(), Failure> {
                 let welkin_scene::preset::Preset {
                     name, description, ..
                 } = preset;
-                format!("{name:<14}{description}\n")
+                format!("{name:<17} {description}\n")
             };
             document::print_text(&presets().iter().map(line).collect::<String>())
         }
