@@ -10,7 +10,7 @@ const SHOWN = 4;
 /**
  * @typedef {{id: string, name: string | null, kind: string, format: string | null, state: string, frames: number,
  *   counts: Record<string, number>, rate_per_s: number, eta_s: number | null, ended_at: string | null,
- *   failures: {frame: number | null, reason: string}[], notes: string[], files: {name: string, bytes: number}[]}} Job
+ *   latest: number[], failures: {frame: number | null, reason: string}[], notes: string[], files: {name: string, bytes: number}[]}} Job
  */
 
 /** @param {Job} job @param {string | number} name */
@@ -28,13 +28,10 @@ function words({ state, counts, frames, rate_per_s, eta_s, ended_at }) {
   return parts.join(' · ');
 }
 
-/** Numbers of the frames to show: the latest while a job goes on, then some from all of it. @param {Job} job */
-function picked({ counts, frames, ended_at, failures }) {
-  const known = ended_at ? frames : counts.done;
-  const missing = new Set(failures.map(({ frame }) => frame));
-  const at = (/** @type {number} */ i) => (ended_at ? Math.floor(((i + 0.5) * known) / SHOWN) : known - SHOWN + i);
-  const numbers = Array.from({ length: SHOWN }, (_, i) => at(i));
-  return [...new Set(numbers)].filter((n) => n >= 0 && n < known && !missing.has(n));
+/** Numbers of the frames to show: the latest, and of a job that is done some from all of it. @param {Job} job */
+function picked({ state, frames, latest }) {
+  if (state !== 'done') return latest;
+  return [...new Set(Array.from({ length: SHOWN }, (_, i) => Math.floor(((i + 0.5) * frames) / SHOWN)))];
 }
 
 /** A job's entry, kept while the job is listed, so that pictures that are there stay. @param {Job} first */
@@ -53,8 +50,6 @@ function createEntry(first) {
     const known = images.get(number);
     if (known) return known;
     const image = h('img', { src: resultOf(job, number), alt: `Frame ${number}`, title: `Frame ${number}`, loading: 'lazy' });
-    // Frames end out of order; one that is not there yet is asked for again.
-    image.addEventListener('error', () => images.delete(number), { once: true });
     images.set(number, image);
     return image;
   };

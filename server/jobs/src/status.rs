@@ -11,6 +11,8 @@ use welkin_scene::Format;
 
 /// Failures that a status tells.
 const MOST_FAILURES: u32 = 100;
+/// Frames that a status names.
+const LATEST: u32 = 4;
 /// The rate is that of about this long, seconds.
 const RATE_S: i64 = 60;
 
@@ -39,6 +41,8 @@ pub struct JobStatus {
     pub rate_per_s: f64,
     /// Seconds until all frames are done at this rate; null where none was done lately, or it has ended.
     pub eta_s: Option<f64>,
+    /// Numbers of the frames that were done last, in order; four at most.
+    pub latest: Vec<u32>,
     /// What was given up, and why; the first hundred.
     pub failures: Vec<Dead>,
     /// What else is to be said, such as a film that could not be made.
@@ -124,6 +128,7 @@ impl Jobs {
             },
             rate_per_s,
             eta_s: (rate_per_s > 0.0 && !state.has_ended()).then(|| left / rate_per_s),
+            latest: self.queue.latest(id, LATEST).await?,
             failures,
             notes,
             files,

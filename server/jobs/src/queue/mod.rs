@@ -3,6 +3,7 @@
 //!
 //! What is asked of both databases is the same text but for the name of the table of tasks.
 
+mod latest;
 mod records;
 mod tasks;
 

@@ -368,7 +368,7 @@ fn task(id: JobId, part: Part, names: &mut Generator) -> Result<Queued<Task>, Jo
 }
 
 /// The condition that picks a job's tasks: `$1` is the queue's name, `$2` the job's [`prefix`].
-const fn of_job(queue: &Queue) -> &'static str {
+pub(super) const fn of_job(queue: &Queue) -> &'static str {
     match queue {
         // LIKE would not use the index: it does not tell letters' case apart.
         Queue::Sqlite(_) => "job_type = $1 AND idempotency_key GLOB $2",
@@ -376,7 +376,7 @@ const fn of_job(queue: &Queue) -> &'static str {
     }
 }
 
-fn prefix(queue: &Queue, id: JobId) -> String {
+pub(super) fn prefix(queue: &Queue, id: JobId) -> String {
     match queue {
         Queue::Sqlite(_) => format!("{id}/*"),
         Queue::Postgres(_) => format!("{id}/%"),

@@ -35,6 +35,8 @@ pub(crate) fn job_schema() -> Value {
         })),
         "rate_per_s": {"type": "number", "minimum": 0, "description": "Frames a second over the last minute"},
         "eta_s": {"type": ["number", "null"], "description": "Seconds until all frames are done at this rate"},
+        "latest": {"type": "array", "maxItems": 4, "description": "The frames that were done last",
+            "items": count("A frame's number")},
         "failures": {"type": "array", "items": object(json!({
             "frame": {"type": ["integer", "null"], "description": "Its number; null for what is made of all frames"},
             "attempts": count("How often it was begun"),

@@ -100,6 +100,7 @@ async fn a_job_is_sent_watched_and_fetched() {
 
     let job = place.ended(&path).await;
     assert_eq!(job["files"][0]["name"], "labels.jsonl", "{job}");
+    assert_eq!(job["latest"].as_array().unwrap().len(), 4, "{job}");
     for number in 0..5 {
         let frame = get(&place.app, &format!("{path}/results/{number}")).await;
         assert_eq!(
