@@ -78,9 +78,11 @@ impl Jobs {
             self.status_of(record).await
         };
         let found = self.lately.try_get_with(id, found).await;
-        let status = found.map_err(|error: Arc<JobError>| match Arc::try_unwrap(error) {
-            Ok(error) => error,
-            Err(error) => JobError::Queue(error.to_string()),
+        // All who asked at the same time share one error.
+        let status = found.map_err(|error: Arc<JobError>| match &*error {
+            JobError::Unknown(id) => JobError::Unknown(id.clone()),
+            JobError::Damaged(reason) => JobError::Damaged(reason.clone()),
+            other => JobError::Queue(other.to_string()),
         })?;
         if status.state.has_ended() && status.counts.running == 0 {
             self.ended.insert(id, status.clone()).await;

@@ -52,7 +52,9 @@ impl Attention {
     fn is_calm(&self) -> bool {
         let ended_ms = self.ended_ms.load(Ordering::SeqCst);
         let quiet_ms = u64::try_from(QUIET.as_millis()).unwrap_or(u64::MAX);
-        self.orders.load(Ordering::SeqCst) == 0 && (ended_ms == 0 || self.now_ms() - ended_ms >= quiet_ms)
+        // An order may end between the two looks at the clock.
+        let since_ms = self.now_ms().saturating_sub(ended_ms);
+        self.orders.load(Ordering::SeqCst) == 0 && (ended_ms == 0 || since_ms >= quiet_ms)
     }
 }
 

@@ -83,6 +83,7 @@ pub(crate) fn routes(service: &Service) -> Router<Service> {
     };
     Router::new()
         .route(PLACE, get(page))
+        .route("/jobs/", get(page))
         .route("/jobs/{*file}", get(file))
         .route("/jobs/api/v1/events", get(events))
         .nest("/jobs/api/v1", asked.with_state(()))
