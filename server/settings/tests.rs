@@ -132,6 +132,7 @@ fn the_help_tells_the_defaults() {
             serde_json::Value::Null if name == "store" => {
                 "results in welkin in the user's folder for data".to_owned()
             }
+            serde_json::Value::Null if name == "otlp" => "nowhere".to_owned(),
             serde_json::Value::Null => "the fastest".to_owned(),
             serde_json::Value::String(text) => text.clone(),
             other => other.to_string(),

@@ -241,7 +241,13 @@ impl Shop {
             )));
         }
         let done = AssertUnwindSafe(self.part(id, part)).catch_unwind().await;
-        match done.unwrap_or_else(|panic| Err(fallen(&*panic))) {
+        let done = done.unwrap_or_else(|panic| Err(fallen(&*panic)));
+        // The queue hears of it only after the next part may have begun: should that end the worker, this one is begun
+        // again for no fault of its own.
+        if attempt > 1 && done.is_ok() {
+            self.jobs.queue.came_through(&id.key(part)).await?;
+        }
+        match done {
             Err(Trouble::Passing(reason)) if begun == attempts => Err(Trouble::Lasting(reason)),
             done => done,
         }

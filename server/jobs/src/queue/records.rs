@@ -280,6 +280,17 @@ impl Queue {
         Ok(u32::try_from(count).unwrap_or(u32::MAX))
     }
 
+    /// Forgets how often a task was begun, as it did not end its worker.
+    pub(crate) async fn came_through(&self, key: &str) -> Result<(), JobError> {
+        on!(self, |pool, tasks| {
+            sqlx::query("DELETE FROM welkin_begins WHERE task = $1")
+                .bind(key)
+                .execute(pool)
+                .await?;
+        });
+        Ok(())
+    }
+
     /// Says something of a job.
     pub(crate) async fn note(&self, id: JobId, notes: &[String]) -> Result<(), JobError> {
         let text = "UPDATE welkin_jobs SET notes = $2 WHERE id = $1";
