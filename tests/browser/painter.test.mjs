@@ -1,7 +1,7 @@
 /** The weather painted in the page: it reaches the server and the sky, is kept, loaded, sent as a file and refused. */
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
-import { CHEAP, colours, difference, PHONE, sentScene, STRIP, useBrowser } from './page.mjs';
+import { CHEAP, colours, difference, PHONE, sentScene, settled, STRIP, useBrowser } from './page.mjs';
 
 const open = useBrowser();
 const openWithout = useBrowser(['--max-assets', '0']);
@@ -84,12 +84,14 @@ test('a stroke reaches the server and the sky, and is undone there', () =>
       const [under, beside] = [await kept(page, name, 0.5, 0.4), await kept(page, name, 0.5, 0.9)];
       assert.ok(under[0] > 250, `R is coverage: ${under}`);
       assert.deepEqual(beside, [0, 128, 0], 'nothing else was touched');
+      await settled(page);
       const painted = await colours(page);
       await sending(page, () => page.locator('#paint-undo').click());
       assert.deepEqual(await kept(page, name, 0.5, 0.4), [0, 128, 0]);
+      await settled(page);
       const clear = await colours(page);
       const seen = difference(painted, clear);
-      assert.ok(seen > 3 * SEEN, 'the clouds are gone');
+      assert.ok(seen > 3 * SEEN, `the clouds are gone: ${seen}`);
       assert.ok(await page.locator('#paint-undo').isDisabled());
       assert.equal(await page.locator('#paint-form [name="map"]').inputValue(), name);
       await sending(page, () => stroke(page, [[0.35, 0.6], [0.65, 0.6]]));
