@@ -58,12 +58,13 @@ impl Place {
             .env("WELKIN_ASSETS", self.path("assets"))
             .env("WELKIN_SERVER", format!("http://{}", self.address))
             .env("WELKIN_HEARTBEAT_S", "1")
+            .env("WELKIN_LOG", "warn")
             .stdin(Stdio::null());
         command
     }
 
     fn serve(&self, more: &[&str]) -> Running {
-        let mut arguments = vec!["serve", "--listen", &self.address, "--log", "warn"];
+        let mut arguments = vec!["serve", "--listen", &self.address];
         arguments.extend(more);
         let mut server = Running(self.welkin(&arguments).spawn().unwrap());
         let begun = Instant::now();
