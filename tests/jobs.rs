@@ -58,6 +58,7 @@ impl Place {
             .env("WELKIN_ASSETS", self.path("assets"))
             .env("WELKIN_SERVER", format!("http://{}", self.address))
             .env("WELKIN_HEARTBEAT_S", "1")
+            .env("WELKIN_LOG", "warn")
             .stdin(Stdio::null());
         command
     }
