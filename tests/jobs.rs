@@ -66,9 +66,6 @@ impl Place {
     fn serve(&self, more: &[&str]) -> Running {
         let mut arguments = vec!["serve", "--listen", &self.address];
         arguments.extend(more);
-        if !more.contains(&"--log") {
-            arguments.extend(["--log", "warn"]);
-        }
         let mut server = Running(self.welkin(&arguments).spawn().unwrap());
         let begun = Instant::now();
         while TcpStream::connect(&self.address).is_err() {
