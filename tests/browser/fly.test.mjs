@@ -185,9 +185,15 @@ test('M moves the sun along its day until M', () =>
     const { azimuth, elevation } = await sunAngles(page);
     // From the south: a degree a second about the pole, westwards and down.
     assert.ok(azimuth > 180.5 && azimuth < 190 && elevation < 35 && elevation > 34, `${azimuth}, ${elevation}`);
-    await page.locator('#time-place .switch').click();
     const time = () => Date.parse(sentScene(page).sun.position.time);
-    const from = await telling(page, () => page.locator('#day').fill('600')).then(time);
+    // The switch sets noon: what it sends has to be gone before the slider's earlier hour is waited for.
+    await telling(page, () => page.locator('#time-place .switch').click());
+    await rested(page);
+    const noon = time();
+    await telling(page, () => page.locator('#day').fill('600'));
+    await rested(page);
+    const from = time();
+    assert.ok(from < noon, 'ten by the sun');
     await telling(page, () => page.locator('#sky').focus().then(() => page.keyboard.press('m')));
     await page.waitForTimeout(1500);
     await page.keyboard.press('m');
