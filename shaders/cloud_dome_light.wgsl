@@ -6,14 +6,14 @@ import package::lib::dome::{BLOCK_CORNERS, BLOCK_CELLS, BLOCK_SIDE, Dome, dome_s
 import package::lib::geometry::edge_cosine;
 import package::lib::view_ray::Observer;
 
-@group(0) @binding(18) var<uniform> dome: Dome;
-@group(0) @binding(19) var<uniform> observer: Observer;
+@group(0) @binding(20) var<uniform> dome: Dome;
+@group(0) @binding(21) var<uniform> observer: Observer;
 // Column and row of each block, and where it is kept.
-@group(0) @binding(20) var<storage, read> blocks: array<vec4u>;
+@group(0) @binding(22) var<storage, read> blocks: array<vec4u>;
 // Six vectors a corner, as `Nodes` has them.
-@group(0) @binding(21) var<storage, read> nodes: array<vec4f>;
+@group(0) @binding(23) var<storage, read> nodes: array<vec4f>;
 // Radiance to add in R, G, B; alpha is the share of what lies behind that comes through.
-@group(0) @binding(22) var seen: texture_storage_2d<rgba32float, write>;
+@group(0) @binding(24) var seen: texture_storage_2d<rgba32float, write>;
 
 @compute @workgroup_size(64)
 fn cloud_dome_light(@builtin(global_invocation_id) id: vec3u) {

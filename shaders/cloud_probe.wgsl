@@ -7,12 +7,12 @@ import package::lib::view_ray::Observer;
 // True where more than the sphere stands on the ground.
 override GROUND: bool = false;
 
-@group(0) @binding(18) var<storage, read> directions: array<vec4f>;
-@group(0) @binding(19) var<uniform> observer: Observer;
+@group(0) @binding(20) var<storage, read> directions: array<vec4f>;
+@group(0) @binding(21) var<uniform> observer: Observer;
 // Radiance to add in R, G, B; alpha is the share of what lies behind that comes through.
-@group(0) @binding(20) var<storage, read_write> answers: array<vec4f>;
+@group(0) @binding(22) var<storage, read_write> answers: array<vec4f>;
 // In alpha, how far away that is; else -1.
-@group(0) @binding(21) var<storage, read> lit_ground: array<vec4f>;
+@group(0) @binding(23) var<storage, read> lit_ground: array<vec4f>;
 
 @compute @workgroup_size(64)
 fn cloud_probe(@builtin(global_invocation_id) id: vec3u) {

@@ -21,15 +21,15 @@ struct Tile {
     stride_px: u32,
 }
 
-@group(0) @binding(18) var<uniform> camera: Camera;
-@group(0) @binding(19) var<uniform> tile: Tile;
-@group(0) @binding(20) var<uniform> observer: Observer;
+@group(0) @binding(20) var<uniform> camera: Camera;
+@group(0) @binding(21) var<uniform> tile: Tile;
+@group(0) @binding(22) var<uniform> observer: Observer;
 // Six vectors a pixel, as `Nodes` has them.
-@group(0) @binding(21) var<storage, read> nodes: array<vec4f>;
+@group(0) @binding(23) var<storage, read> nodes: array<vec4f>;
 // Radiance to add in R, G, B; alpha is the share of what lies behind that comes through.
-@group(0) @binding(22) var table: texture_storage_2d<rgba32float, write>;
+@group(0) @binding(24) var table: texture_storage_2d<rgba32float, write>;
 // In alpha, how far away what stands on the ground is; else -1.
-@group(0) @binding(23) var<storage, read> lit_ground: array<vec4f>;
+@group(0) @binding(25) var<storage, read> lit_ground: array<vec4f>;
 
 @compute @workgroup_size(8, 8)
 fn cloud_view_light(@builtin(global_invocation_id) id: vec3u) {

@@ -1,14 +1,19 @@
-// The light of the clouds that a ray sees. Whoever imports from here binds what `lib/cloud_source.wgsl` names.
+// The light of the clouds that a ray sees. Whoever imports from here binds what `lib/cloud_on_ground.wgsl` names.
 import package::lib::cloud::{clouds, sheet_optical_depth};
 import package::lib::cloud_light::forward_lobes;
 import package::lib::cloud_march::{FIRST_SHEET, OPAQUE};
 import package::lib::cloud_nodes::{NODES, Nodes};
+import package::lib::cloud_on_ground::lit_past_ground;
 import package::lib::cloud_ray::{CloudRay, place_at, view};
 import package::lib::cloud_source::{AirBefore, Surroundings, air_before, sheet_source, source_at, surroundings, unlit_air};
 import package::lib::geometry::altitude_after;
 
 // What lights a place, and the air before it, serve for others that are no farther from it than this part of the way.
 const NEAR = 0.05;
+
+fn dimmed(around: Surroundings, lit: f32) -> Surroundings {
+    return Surroundings(lit * around.sun, around.above, around.below, around.mu_s);
+}
 
 // Radiance to add in R, G, B; alpha is the share of what lies behind that comes through.
 fn clouds_seen(ray: CloudRay, nodes: Nodes) -> vec4f {
@@ -36,12 +41,13 @@ fn clouds_seen(ray: CloudRay, nodes: Nodes) -> vec4f {
                 around_m = distance_m;
             }
             var source = vec3f(0.0);
+            let lit = lit_past_ground(p);
             if index < FIRST_SHEET {
-                source = source_at(index, p, altitude_m, extinction, around, lobes);
+                source = source_at(index, p, altitude_m, extinction, dimmed(around, lit), lobes);
             }
             if index >= FIRST_SHEET {
                 let sheet = clouds.sheets[index - FIRST_SHEET];
-                source = sheet_source(index - FIRST_SHEET, p, sheet_optical_depth(sheet, p, sheet.height_m), lobes);
+                source = sheet_source(index - FIRST_SHEET, p, sheet_optical_depth(sheet, p, sheet.height_m), dimmed(surroundings(p, sheet.height_m), lit), lobes);
             }
             light += four.share[k] * (before.left * source + before.single + before.multiple);
         }

@@ -136,9 +136,8 @@ fn light_depth(index: u32, band: CloudBand, p: vec3f, altitude_m: f32, mu_s: f32
 }
 
 // A thin layer: its light scattered once with the phase function, and the rest as a slab's.
-fn sheet_source(index: u32, p: vec3f, depth: f32, lobes: Lobes) -> vec3f {
+fn sheet_source(index: u32, p: vec3f, depth: f32, around: Surroundings, lobes: Lobes) -> vec3f {
     let sheet = clouds.sheets[index];
-    let around = surroundings(p, sheet.height_m);
     let over = shade_depth(shade, shade_maps, linear_clamp, clouds.radius_m, p, sheet.height_m + 1.0, view.sun, around.mu_s);
     // Half the way in, towards the light.
     let before = 0.5 * depth / max(abs(around.mu_s), 0.05);

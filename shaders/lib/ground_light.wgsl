@@ -1,7 +1,7 @@
 // Whether the sun reaches a place, past what stands on the ground. Whoever imports from here binds what `lib/ground.wgsl`
 // names, and this.
 import package::lib::ground_cast::cast_ground;
-import package::lib::ground_shadow::{GroundShadow, lifted, map_place};
+import package::lib::ground_shadow::{GroundShadow, lifted, map_place, passes_over, texel_word};
 
 // 0: nothing casts a shadow; 1: by the map; 2: by rays.
 override SHADOW: u32 = 1u;
@@ -13,12 +13,11 @@ override FILTER: u32 = 2u;
 
 // 1 where the light passes over the texel to that depth, else 0.
 fn is_lit(texel: vec2i, depth: f32) -> f32 {
-    let size = i32(shadow.size_px);
-    if any(texel < vec2i(0)) || any(texel >= vec2i(size)) {
+    let word = texel_word(shadow, texel);
+    if word < 0 {
         return 1.0;
     }
-    let word = unpack2x16unorm(shadow_map[texel.y * (size / 2) + texel.x / 2]);
-    return select(0.0, 1.0, depth >= select(word.x, word.y, (texel.x & 1) == 1));
+    return passes_over(shadow_map[word], texel, depth);
 }
 
 // Standard deviation of the bell, texels.

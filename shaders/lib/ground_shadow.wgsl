@@ -36,6 +36,19 @@ fn texel_origin(shadow: GroundShadow, texel: vec2u) -> vec3f {
     return along.x * shadow.right + along.y * shadow.up + along.z * shadow.light;
 }
 
+// The word of the map that holds a texel, if it has one.
+fn texel_word(shadow: GroundShadow, texel: vec2i) -> i32 {
+    let size = i32(shadow.size_px);
+    let beyond = any(texel < vec2i(0)) || any(texel >= vec2i(size));
+    return select(texel.y * (size / 2) + texel.x / 2, -1, beyond);
+}
+
+// 1 where the light passes over a texel, which that word holds, to that depth; else 0.
+fn passes_over(word: u32, texel: vec2i, depth: f32) -> f32 {
+    let depths = unpack2x16unorm(word);
+    return select(0.0, 1.0, depth >= select(depths.x, depths.y, (texel.x & 1) == 1));
+}
+
 // A place on a surface is moved along the surface's normal by about as much as it may fall within a texel.
 fn lifted(shadow: GroundShadow, p: vec3f, normal: vec3f) -> vec3f {
     let texel_m = 2.0 * max(shadow.half_m.x, shadow.half_m.y) / f32(shadow.size_px);

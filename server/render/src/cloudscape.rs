@@ -7,6 +7,7 @@ use crate::{
     cloud_sky::CloudSky,
     error::Error,
     gpu::{Gpu, Shape},
+    groundscape::Groundscape,
     kernel::{Bind, Recorder},
     lights::Lights,
     memo::{Fingerprint, Memo},
@@ -17,6 +18,7 @@ use crate::{
         aerial::{Aerial, AerialVolumes},
         cloud_shadow::CloudShadow,
         cloud_shape::ShapeFrequencies,
+        ground_shadow::ShadowMap,
         multi_scattering::MultiScattering,
     },
     prepared::Tables,
@@ -24,6 +26,7 @@ use crate::{
     uniforms::{
         Part, Standpoint,
         clouds::{CloudFrameUniform, ShadowUniform},
+        ground::GroundShadowUniform,
         narrow,
     },
 };
@@ -68,6 +71,8 @@ pub(crate) struct Cloudscape {
     multi_scattering: Arc<MultiScattering>,
     pub(crate) aerial: Arc<AerialVolumes>,
     pub(crate) shadow: Arc<Table>,
+    /// Of what stands on the ground, where that may fall on them.
+    ground_shadow: Option<Arc<ShadowMap>>,
     /// Altitude of the lowest.
     pub(crate) base_m: f32,
     place_m: Vec3,
@@ -85,6 +90,7 @@ pub(crate) struct CloudParts {
     pub(crate) view: wgpu::Buffer,
     pub(crate) shade: wgpu::Buffer,
     pub(crate) observer: wgpu::Buffer,
+    ground_shadow: (wgpu::Buffer, wgpu::Buffer),
 }
 
 impl CloudTextures {
@@ -124,6 +130,15 @@ impl Cloudscape {
             view: self.view.upload(gpu, "view"),
             shade: self.shade.upload(gpu, "shade"),
             observer: self.observer.upload(gpu, "observer"),
+            ground_shadow: self.ground_shadow.as_ref().map_or_else(
+                || {
+                    (
+                        Part::new(&GroundShadowUniform::default()).upload(gpu, "ground_shadow"),
+                        gpu.buffer("unused", 16, wgpu::BufferUsages::STORAGE),
+                    )
+                },
+                |map| (map.in_scene.upload(gpu, "ground_shadow"), map.texels.clone()),
+            ),
         }
     }
 
@@ -146,6 +161,8 @@ impl Cloudscape {
             Bind::Table(&self.aerial.mie),
             Bind::Table(&self.aerial.multiple),
             Bind::Table(&self.shadow.view),
+            Bind::Buffer(&parts.ground_shadow.0),
+            Bind::Buffer(&parts.ground_shadow.1),
         ]);
         binds
     }
@@ -153,6 +170,12 @@ impl Cloudscape {
     /// What spares the shaders the search for the layer.
     pub(crate) const fn one_layer(&self) -> (&'static str, f64) {
         self.one_layer
+    }
+
+    /// What the shaders that find the clouds' light are made for.
+    pub(crate) fn light_constants(&self) -> [(&'static str, f64); 2] {
+        let shaded = f64::from(u8::from(self.ground_shadow.is_some()));
+        [self.one_layer, ("SHADED", shaded)]
     }
 
     /// What the ground's shadows need.
@@ -315,7 +338,7 @@ impl CloudPasses {
         recorder: &mut Recorder<'_>,
         tables: &Tables,
         (sky, textures): (&CloudSky<'_>, CloudTextures),
-        light: CloudLight<'_>,
+        (light, ground): (CloudLight<'_>, Option<&Groundscape>),
         quality: Quality,
     ) -> Cloudscape {
         let scene = sky.scene;
@@ -346,6 +369,7 @@ impl CloudPasses {
             (sky.shade_count(), sky.one_layer()),
             quality,
         );
+        let ground_shadow = ground.and_then(|ground| ground.shadow_on_clouds(base_m, &light.stand));
         let observer = Part::new(&light.stand.observer(tables.plan.pixel_steps()));
         let made_from = Fingerprint::of((
             "clouds",
@@ -356,6 +380,7 @@ impl CloudPasses {
                 tables.multi_scattering.irradiance.made_from,
             ),
             (aerial.made_from, shadow.made_from),
+            ground_shadow.as_ref().map(|map| map.made_from),
         ));
         Cloudscape {
             clouds,
@@ -368,6 +393,7 @@ impl CloudPasses {
             multi_scattering: Arc::clone(&tables.multi_scattering),
             aerial,
             shadow,
+            ground_shadow,
             base_m,
             place_m: crate::uniforms::narrow3(scene.camera.position_m),
             light: light.stand.sun.as_vec3(),

@@ -201,8 +201,13 @@ impl Engine {
                 (order.quality, Some(size_px)),
             )?;
             let clouds = cloud_sky.zip(textures).map(|(sky, textures)| {
-                self.clouds
-                    .scape(&mut recorder, &tables, (&sky, textures), light, order.quality)
+                self.clouds.scape(
+                    &mut recorder,
+                    &tables,
+                    (&sky, textures),
+                    (light, ground.as_ref()),
+                    order.quality,
+                )
             });
             let camera = CameraUniform::new(&scene.camera, size_px);
             let shows = order.output == Output::Display;

@@ -117,6 +117,17 @@ impl Groundscape {
         top_m > f64::from(base_m)
     }
 
+    /// What keeps light from clouds that begin at that altitude, by places in the scene: none where all of them are over
+    /// all that stands and their light comes from above.
+    pub(crate) fn shadow_on_clouds(&self, base_m: f32, stand: &Standpoint) -> Option<Arc<ShadowMap>> {
+        let under = self.terrains.shape.most_m.z > f64::from(base_m);
+        let from_below = stand.up.dot(stand.sun) < 0.0;
+        match &self.shadow {
+            Shades::Map(map, _) | Shades::Rays(map) if under || from_below => Some(Arc::clone(map)),
+            _ => None,
+        }
+    }
+
     pub(crate) const fn fingerprint(&self) -> Fingerprint {
         self.made_from
     }

@@ -53,8 +53,13 @@ impl Engine {
                 (Quality::Final, None),
             )?;
             let clouds = cloud_sky.zip(textures).map(|(sky, textures)| {
-                self.clouds
-                    .scape(&mut recorder, &tables, (&sky, textures), light, Quality::Final)
+                self.clouds.scape(
+                    &mut recorder,
+                    &tables,
+                    (&sky, textures),
+                    (light, ground.as_ref()),
+                    Quality::Final,
+                )
             });
             let pillars = self.pillars.0.scape(
                 &mut recorder,

@@ -30,7 +30,7 @@ impl CloudDomeLight {
             Bind::Table(blocks.seen),
         ]);
         recorder.dispatch(
-            self.kernels.get(gpu, &[scape.one_layer()]),
+            self.kernels.get(gpu, &scape.light_constants()),
             &binds,
             blocks.threads(),
         );

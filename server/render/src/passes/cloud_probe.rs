@@ -40,7 +40,8 @@ impl CloudProbe {
             Bind::Buffer(lit_ground.unwrap_or(&nothing)),
         ]);
         let ground = ("GROUND", f64::from(u8::from(lit_ground.is_some())));
-        let kernel = self.kernels.get(gpu, &[scape.one_layer(), ground]);
+        let [layers, shaded] = scape.light_constants();
+        let kernel = self.kernels.get(gpu, &[layers, shaded, ground]);
         recorder.dispatch(kernel, &binds, [count, 1, 1]);
         answers
     }

@@ -55,8 +55,10 @@ impl CloudViewLight {
             Bind::Table(&view),
             Bind::Buffer(lit_ground.unwrap_or(&nothing)),
         ]);
+        let [layers, shaded] = scape.light_constants();
         let constants = [
-            scape.one_layer(),
+            layers,
+            shaded,
             whole_frame(frame_px),
             ("PROJECTION", f64::from(projection)),
             ("GROUND", f64::from(u8::from(lit_ground.is_some()))),

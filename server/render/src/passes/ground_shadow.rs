@@ -1,13 +1,13 @@
 //! The ground as its light sees it.
 
 use crate::{
-    ground::Terrains,
+    ground::{Frame, Terrains},
     kernel::{Bind, Recorder, Variants},
     memo::{Fingerprint, Memo},
     shader,
     uniforms::{Part, ground::GroundShadowUniform, narrow},
 };
-use glam::DVec3;
+use glam::{DVec3, Vec3};
 use std::sync::Arc;
 
 pub(crate) struct GroundShadow {
@@ -19,6 +19,8 @@ pub(crate) struct GroundShadow {
 pub(crate) struct ShadowMap {
     pub(crate) texels: wgpu::Buffer,
     pub(crate) uniform: Part,
+    /// The same by places in the scene.
+    pub(crate) in_scene: Part,
     pub(crate) made_from: Fingerprint,
 }
 
@@ -58,6 +60,23 @@ pub(crate) fn shadow_uniform(terrains: &Terrains, light: DVec3, size_px: u32) ->
     }
 }
 
+/// The same map by places in the scene: along an axis a there, p·a = (p - o)·a + o·a with o the ground's origin.
+fn in_scene(of: &GroundShadowUniform, frame: &Frame) -> GroundShadowUniform {
+    let turn_back = |v: Vec3| {
+        let v = v.as_dvec3();
+        frame.east * v.x + frame.north * v.y + frame.up * v.z
+    };
+    let [right, up, light] = [of.right, of.up, of.light].map(turn_back);
+    let origin = [right, up, light].map(|axis| frame.origin_m.dot(axis));
+    GroundShadowUniform {
+        right: right.as_vec3(),
+        up: up.as_vec3(),
+        light: light.as_vec3(),
+        middle_m: (of.middle_m.as_dvec3() + DVec3::from_array(origin)).as_vec3(),
+        ..of.clone()
+    }
+}
+
 impl GroundShadow {
     pub(crate) const fn new() -> Self {
         Self {
@@ -74,7 +93,9 @@ impl GroundShadow {
         light: DVec3,
         size_px: u32,
     ) -> Arc<ShadowMap> {
-        let uniform = Part::new(&shadow_uniform(terrains, light, size_px));
+        let uniform = shadow_uniform(terrains, light, size_px);
+        let in_scene = Part::new(&in_scene(&uniform, &terrains.frame));
+        let uniform = Part::new(&uniform);
         let own = terrains.own();
         let made_from = Fingerprint::of(("ground_shadow", &uniform, &own, terrains.shape.made_from));
         self.memo.get_or(made_from, || {
@@ -98,6 +119,7 @@ impl GroundShadow {
             ShadowMap {
                 texels,
                 uniform,
+                in_scene,
                 made_from,
             }
         })

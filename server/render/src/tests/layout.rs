@@ -150,6 +150,7 @@ macro_rules! filled {
 
 mod bound;
 mod clouds;
+mod ground;
 
 fn check(shaders: &[&Shader], name: &str, part: &Part, filled: &Filled) {
     for shader in shaders {

@@ -41,13 +41,22 @@ fn probed(scene: Scene, assets: &Arc<SceneAssets>, directions: &[(f64, f64)]) ->
     pollster::block_on(Renderer::probe(renderer(), order)).unwrap()
 }
 
-fn framed(scene: Scene, assets: &Arc<SceneAssets>, [width_px, height_px]: [u32; 2]) -> Vec<Rgb> {
+fn framed(scene: Scene, assets: &Arc<SceneAssets>, size_px: [u32; 2]) -> Vec<Rgb> {
+    framed_as(Quality::Final, scene, assets, size_px)
+}
+
+fn framed_as(
+    quality: Quality,
+    scene: Scene,
+    assets: &Arc<SceneAssets>,
+    [width_px, height_px]: [u32; 2],
+) -> Vec<Rgb> {
     let order = FrameOrder {
         scene: Arc::new(scene),
         assets: Arc::clone(assets),
         width_px,
         height_px,
-        quality: Quality::Final,
+        quality,
         output: Output::Linear,
         priority: Priority::Interactive,
     };
@@ -218,6 +227,65 @@ fn air_before_a_mountain_under_clouds_is_that_of_the_way() {
     let (seen, there) = (luma(seen[40]), luma(there.radiance_w_m2_sr[0]));
     // Tables of the air are good to 1 %; clouds' shadows on the wall change within a pixel.
     assert!((seen / there - 1.0).abs() < 0.05, "{seen} {there}");
+}
+
+/// A mountain's shadow falls on clouds that lie below its summit: there they have the light of sky and ground alone, as if
+/// there were no sun on clouds at all; elsewhere they lose nothing. A frame of either quality shows it.
+#[test]
+fn a_mountain_shades_the_clouds_below_its_summit() {
+    // Two kilometres south of the observer, five high: under a sun of 20° its shadow leaves the deck's top 8.2 km behind it.
+    let wall = assets(200, |_, row| if (118..122).contains(&row) { 1.0 } else { 0.0 });
+    let view = |shadow: Value, sun_factor: f64| {
+        whole(
+            json!({"camera": {"position_m": [0, 0, 6000], "direction": {"azimuth_deg": 0, "elevation_deg": -70}},
+            "sun": {"position": {"azimuth_deg": 180, "elevation_deg": 20}}, "shafts": null,
+            "clouds": {"coverage": 1, "extinction_per_m": 0.05, "sun_factor": sun_factor,
+                "weather_map": {"kind": "uniform", "coverage": 1, "type": 0.0},
+                "layers": [{"kind": "volume", "base_m": 1000, "top_m": 2000, "type": 0.0}]},
+            "terrain": field(&json!({"height_m": 5000, "shadow": shadow, "surface": {"albedo": {"kind": "plain", "rgb": [0, 0, 0]}}}))}),
+        )
+    };
+    let rays = json!({"kind": "rays"});
+    let dark = [(0.0, -70.0), (30.0, -75.0), (90.0, -80.0)];
+    let lit = [(0.0, -18.0), (180.0, -20.0), (170.0, -20.0)];
+    let seen = |shadow: &Value, sun_factor: f64, looks: &[(f64, f64)]| -> Vec<f64> {
+        let answer = probed(view(shadow.clone(), sun_factor), &wall, looks);
+        answer.radiance_w_m2_sr.into_iter().map(luma).collect()
+    };
+    let (shaded, unlit) = (seen(&rays, 1.0, &dark), seen(&Value::Null, 0.0, &dark));
+    let open = seen(&Value::Null, 1.0, &dark);
+    for i in 0..dark.len() {
+        // The ground behind is black; f32 keeps six digits, the tables of light three.
+        assert!(
+            (shaded[i] / unlit[i] - 1.0).abs() < 1e-3,
+            "{:?}: {} {}",
+            dark[i],
+            shaded[i],
+            unlit[i]
+        );
+        assert!(
+            shaded[i] < 0.6 * open[i],
+            "{:?}: {} {}",
+            dark[i],
+            shaded[i],
+            open[i]
+        );
+    }
+    let (with, without) = (seen(&rays, 1.0, &lit), seen(&Value::Null, 1.0, &lit));
+    for i in 0..lit.len() {
+        assert!(
+            (with[i] / without[i] - 1.0).abs() < 1e-4,
+            "{:?}: {} {}",
+            lit[i],
+            with[i],
+            without[i]
+        );
+    }
+    for quality in [Quality::Preview, Quality::Final] {
+        let middle = |shadow: &Value| luma(framed_as(quality, view(shadow.clone(), 1.0), &wall, [9, 9])[40]);
+        let (shaded, open) = (middle(&rays), middle(&Value::Null));
+        assert!(shaded < 0.6 * open, "{quality:?}: {shaded} {open}");
+    }
 }
 
 /// Radial shafts darken what lies behind a wall in line with the sun's image, the more the stronger, and nothing on its other

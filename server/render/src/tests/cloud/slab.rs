@@ -29,7 +29,13 @@ pub(super) fn look(gpu: &Gpu, scene: &Scene, assets: &SceneAssets, size_px: UVec
         shafted: false,
     };
     let mut recorder = Recorder::new(gpu);
-    let scape = passes.scape(&mut recorder, &tables, (&sky, textures), light, Quality::Final);
+    let scape = passes.scape(
+        &mut recorder,
+        &tables,
+        (&sky, textures),
+        (light, None),
+        Quality::Final,
+    );
     let camera = Part::new(&CameraUniform::new(&scene.camera, size_px));
     let tile = TileUniform {
         origin_px: UVec2::ZERO,
