@@ -17,24 +17,23 @@ use crate::{
     night::Night,
     noise_cache::DiskCache,
     passes::{
-        exposure::{EXPOSURE_BYTES, ExposurePass, meter_size},
-        ground_view::Looks,
+        exposure::{ExposurePass, meter_size},
         multi_scattering::{MultiScatteringPass, Wanted},
-        pillars::{PillarsInputs, PillarsPass},
+        pillars::PillarsPass,
         probe::Probe,
-        sky::{CloudInputs, Sky, SkyInputs, SkyTo},
+        sky::{CloudInputs, Sky, SkyInputs},
         sky_view::SkyView,
-        stars::{StarsInputs, StarsOut, StarsPass},
-        tone::{Tone, ToneInputs},
+        stars::{StarsOut, StarsPass},
+        tone::Tone,
         transmittance::Transmittance,
     },
-    pillars::{PillarPasses, Pillars},
+    pillars::PillarPasses,
     prepared::{Prepared, Tables, sky_inputs},
     renderer::RendererSettings,
-    screen::{PICTURE_BYTES, RADIANCE_BYTES, Screen},
+    screen::Screen,
     shafts::exact_shafts,
     sunlight::Direct,
-    uniforms::{AirUniform, Part, Standpoint, TileUniform, ToneUniform},
+    uniforms::{AirUniform, Part, Standpoint},
 };
 use glam::UVec2;
 use std::cell::OnceCell;
@@ -45,6 +44,7 @@ use welkin_scene::{
 
 mod kept;
 mod probe;
+mod tile;
 
 use kept::{airglow, moon_face};
 
@@ -290,114 +290,6 @@ impl Engine {
                 },
                 times,
             ))
-        })
-    }
-
-    /// One tile. `take` gets its bytes: four floats a pixel of radiance, or four bytes a pixel of the picture. Gives
-    /// what it gives, the picture's EV, and the times.
-    pub(crate) fn tile<T>(
-        &mut self,
-        order: &FrameOrder,
-        frame: &Prepared,
-        tile: TileUniform,
-        take: impl FnOnce(&[u8]) -> T,
-    ) -> Result<(T, Option<f64>, Vec<PassTime>), Error> {
-        let gpu = &self.gpu;
-        let pixels = u64::from(tile.size_px.x) * u64::from(tile.size_px.y);
-        let buffers = self.screen.fit(gpu, pixels);
-        gpu.guarded(|| {
-            let mut recorder = Recorder::new(gpu);
-            let inputs = frame.sky_inputs();
-            let stars = frame.stars.as_ref().map(StarsOut::fingerprint);
-            let pillars = frame.pillars.as_ref().map(Pillars::fingerprint);
-            let made_from = Fingerprint::of((inputs.fingerprint(&Part::new(&tile)), stars, pillars));
-            let (settings, known_ev) = ToneUniform::new(
-                &order.scene,
-                &frame.camera,
-                &frame.tables.stand,
-                tile,
-                &frame.glare,
-            );
-            let tone = ToneInputs {
-                curve: order.scene.display.tone_curve,
-                settings: &settings,
-                exposure: &frame.exposure,
-            };
-            let display = order.output == Output::Display;
-            // A preview by lattices is made anew sooner than its radiance could be toned.
-            let in_one = display && frame.stars.is_none() && frame.pillars.is_none();
-            let by_lattices = in_one && frame.by_lattices;
-            // Whoever comes twice turns at the display: for them the radiance is kept.
-            let comes_first = in_one && buffers.shown != Some(made_from);
-            let at_once = by_lattices || comes_first;
-            // Both emptied until the commands have run.
-            let (held, _) = (buffers.holds.take(), buffers.shown.take());
-            if by_lattices || held != Some(made_from) {
-                let to = if by_lattices {
-                    SkyTo::Preview(tone, &buffers.picture)
-                } else if at_once {
-                    SkyTo::Picture(tone, &buffers.picture)
-                } else {
-                    SkyTo::Radiance(&buffers.radiance)
-                };
-                let (clouds, lit_ground) = self.sky.run(&mut recorder, inputs, tile, to);
-                let seen = frame.clouds_seen(clouds.as_ref());
-                if let Some(stars) = &frame.stars {
-                    let reads = StarsInputs {
-                        air: inputs.air,
-                        view: inputs.view,
-                        transmittance: inputs.transmittance,
-                        clouds: seen,
-                        lit_ground: lit_ground.as_ref(),
-                    };
-                    self.stars
-                        .run(&mut recorder, reads, stars, tile, &buffers.radiance);
-                }
-                if let Some(pillars) = &frame.pillars {
-                    let reads = PillarsInputs {
-                        air: inputs.air,
-                        transmittance: inputs.transmittance,
-                        clouds: seen,
-                        lit_ground: lit_ground.as_ref(),
-                    };
-                    let looks = Looks::Tile(inputs.camera, inputs.plan.projection, tile, inputs.frame_px);
-                    self.pillars
-                        .1
-                        .run(&mut recorder, reads, pillars, looks, &buffers.radiance);
-                }
-            }
-            let is_held = !by_lattices && (held == Some(made_from) || !at_once);
-            if display && is_held {
-                self.tone
-                    .run(&mut recorder, tone, &buffers.radiance, &buffers.picture);
-            }
-            let (source, size) = if display {
-                (&buffers.picture, PICTURE_BYTES * pixels)
-            } else {
-                (&buffers.radiance, RADIANCE_BYTES * pixels)
-            };
-            recorder
-                .encoder
-                .copy_buffer_to_buffer(source, 0, &buffers.staging, 0, size);
-            recorder
-                .encoder
-                .copy_buffer_to_buffer(&frame.exposure, 0, &buffers.exposure, 0, EXPOSURE_BYTES);
-            let readable = [(&buffers.staging, size), (&buffers.exposure, EXPOSURE_BYTES)];
-            let ((taken, metered_ev), times) = recorder.finish(&readable, |bytes| {
-                let exposure: &[f32] = bytemuck::cast_slice(bytes[1]);
-                (take(bytes[0]), f64::from(exposure[1]))
-            })?;
-            if is_held {
-                buffers.holds = Some(made_from);
-            } else {
-                (buffers.holds, buffers.shown) = (held, Some(made_from));
-            }
-            let ev = match order.output {
-                Output::Display if settings.metered == 1 => Some(metered_ev),
-                Output::Display => known_ev,
-                Output::Linear => None,
-            };
-            Ok((taken, ev, times))
         })
     }
 }

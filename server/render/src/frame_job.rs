@@ -1,7 +1,13 @@
 //! One frame, tile by tile.
 
 use crate::{
-    area::Area, engine::Engine, error::Error, prepared::Prepared, sunlight::Direct, uniforms::TileUniform,
+    area::Area,
+    engine::Engine,
+    error::Error,
+    prepared::Prepared,
+    silhouettes::{APRON_PX, smooth},
+    sunlight::Direct,
+    uniforms::TileUniform,
 };
 use glam::UVec2;
 use std::{collections::VecDeque, ops::Range, sync::Arc, time::Instant};
@@ -96,6 +102,10 @@ pub(crate) struct FrameJob {
     /// Where the next tile begins in the first of them.
     at: UVec2,
     pixels: Pixels,
+    /// The part of the frame that is drawn: what was asked for, and as much about it as its silhouettes need.
+    drawn: Window,
+    /// How far away what stands on the ground is before each pixel; empty where silhouettes are not smoothed.
+    ways_m: Vec<f32>,
     passes: Vec<PassTime>,
     ev100: Option<f64>,
 }
@@ -118,6 +128,8 @@ impl FrameJob {
             areas: VecDeque::new(),
             at: UVec2::ZERO,
             pixels,
+            drawn: window,
+            ways_m: Vec::new(),
             passes: Vec::new(),
             ev100: None,
         }
@@ -146,7 +158,7 @@ impl FrameJob {
             // The device that held the tables is gone.
             *self = Self::windowed(self.order.clone(), self.window, self.seen.take());
         }
-        let size = UVec2::new(self.window.width_px, self.window.height_px);
+        let size = UVec2::new(self.drawn.width_px, self.drawn.height_px);
         let (Some(prepared), Some(area)) = (&self.prepared, self.areas.front().copied()) else {
             let (prepared, times) = engine.prepare(&self.order)?;
             add_times(&mut self.passes, times);
@@ -154,13 +166,19 @@ impl FrameJob {
                 && self.is_whole()
                 && self.order.quality == Quality::Final
                 && !budget.is_quick(size, prepared.work_per_pixel());
+            let smooth = prepared.has_silhouettes();
+            if smooth {
+                self.drawn = with_apron(self.window, &self.order);
+            }
             self.areas = if in_passes {
                 Area::passes(size).into()
             } else {
-                VecDeque::from([Area::window(self.window)])
+                VecDeque::from([Area::window(self.drawn)])
             };
             self.prepared = Some(prepared);
-            let values = 3 * size.x as usize * size.y as usize;
+            let drawn = self.drawn.width_px as usize * self.drawn.height_px as usize;
+            self.ways_m = vec![-1.0; if smooth { drawn } else { 0 }];
+            let values = 3 * drawn;
             self.pixels = match self.order.output {
                 Output::Display => Pixels::Display(vec![0; values]),
                 Output::Linear => Pixels::Linear(vec![0.0; values]),
@@ -169,15 +187,18 @@ impl FrameJob {
         };
         let work = prepared.work_per_pixel();
         let (tile, next) = area.tile(budget, self.at, work);
-        let pixels = &mut self.pixels;
-        let corner = UVec2::new(self.window.x_px, self.window.y_px);
+        let (pixels, ways_m) = (&mut self.pixels, &mut self.ways_m);
+        let corner = UVec2::new(self.drawn.x_px, self.drawn.y_px);
         let placed = TileUniform {
             origin_px: tile.origin_px - corner,
             ..tile
         };
         let begun = Instant::now();
         let ((), ev100, times) = engine.tile(&self.order, prepared, tile, |bytes| {
-            place(pixels, size, placed, bytes)
+            place(pixels, size, placed, bytes.pixels);
+            if let Some(ground) = bytes.ground {
+                place_ways(ways_m, size, placed, bytemuck::cast_slice(ground));
+            }
         })?;
         budget.learn(tile.size_px, work, begun.elapsed().as_secs_f64() * 1e3);
         add_times(&mut self.passes, times);
@@ -190,15 +211,19 @@ impl FrameJob {
         let facts = facts(&self.order.scene, &prepared.direct, self.ev100);
         let frame = |pixels, passes| {
             Arc::new(Frame {
-                width_px: size.x,
-                height_px: size.y,
+                width_px: self.window.width_px,
+                height_px: self.window.height_px,
                 pixels,
                 passes,
                 facts,
             })
         };
         if self.areas.is_empty() {
-            let pixels = std::mem::replace(&mut self.pixels, Pixels::Display(Vec::new()));
+            let mut pixels = std::mem::replace(&mut self.pixels, Pixels::Display(Vec::new()));
+            if !self.ways_m.is_empty() {
+                smooth(&mut pixels, &self.ways_m, size);
+                pixels = cut(pixels, size, corner, self.window);
+            }
             return Ok(Some(frame(pixels, std::mem::take(&mut self.passes))));
         }
         if let Some(seen) = &self.seen {
@@ -208,6 +233,43 @@ impl FrameJob {
             });
         }
         Ok(None)
+    }
+}
+
+/// What must be drawn so that a window's silhouettes are those of the whole frame.
+fn with_apron(window: Window, order: &FrameOrder) -> Window {
+    let side = |first: u32, length: u32, whole: u32| {
+        let begin = first.saturating_sub(APRON_PX);
+        (begin, (first + length + APRON_PX).min(whole) - begin)
+    };
+    let (x_px, width_px) = side(window.x_px, window.width_px, order.width_px);
+    let (y_px, height_px) = side(window.y_px, window.height_px, order.height_px);
+    Window {
+        x_px,
+        y_px,
+        width_px,
+        height_px,
+    }
+}
+
+/// A window's pixels of those drawn from a corner on.
+fn cut(drawn: Pixels, size: UVec2, corner: UVec2, window: Window) -> Pixels {
+    if size == UVec2::new(window.width_px, window.height_px) {
+        return drawn;
+    }
+    fn rows<T: Copy>(values: &[T], width: u32, first: UVec2, window: Window) -> Vec<T> {
+        let (skip, length) = (3 * first.x as usize, 3 * window.width_px as usize);
+        values
+            .chunks_exact(3 * width as usize)
+            .skip(first.y as usize)
+            .take(window.height_px as usize)
+            .flat_map(|row| row[skip..skip + length].iter().copied())
+            .collect()
+    }
+    let first = UVec2::new(window.x_px, window.y_px) - corner;
+    match drawn {
+        Pixels::Display(values) => Pixels::Display(rows(&values, size.x, first, window)),
+        Pixels::Linear(values) => Pixels::Linear(rows(&values, size.x, first, window)),
     }
 }
 
@@ -236,6 +298,19 @@ fn place_values<T: Copy>(values: &mut [T], frame: UVec2, tile: TileUniform, from
         let to = values[first..].chunks_mut(3).step_by(stride);
         for (to, from) in to.zip(from.chunks_exact(4)) {
             to.copy_from_slice(&from[..3]);
+        }
+    }
+}
+
+/// The last of each four values is the way.
+fn place_ways(ways_m: &mut [f32], frame: UVec2, tile: TileUniform, from: &[f32]) {
+    let (width, stride) = (tile.size_px.x as usize, tile.stride_px as usize);
+    for (row, from) in from.chunks_exact(4 * width).enumerate() {
+        let y = tile.origin_px.y as usize + stride * row;
+        let first = y * frame.x as usize + tile.origin_px.x as usize;
+        let to = ways_m[first..].iter_mut().step_by(stride);
+        for (to, from) in to.zip(from.chunks_exact(4)) {
+            *to = from[3];
         }
     }
 }

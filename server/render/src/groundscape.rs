@@ -110,11 +110,16 @@ pub(crate) struct Groundscape {
 impl Groundscape {
     /// True where it, or who looks, may stand above clouds that begin at that altitude: then some are before it.
     pub(crate) fn may_hide(&self, base_m: f32, stand: &Standpoint) -> bool {
-        if self.terrains.shape.code == 0.0 && self.wind_m_s.is_none() {
+        if !self.has_silhouettes() {
             return false;
         }
         let top_m = self.terrains.shape.most_m.z.max(stand.altitude_m);
         top_m > f64::from(base_m)
+    }
+
+    /// True where more than a matt sphere is seen.
+    pub(crate) fn has_silhouettes(&self) -> bool {
+        self.terrains.shape.code != 0.0 || self.wind_m_s.is_some()
     }
 
     /// What keeps light from clouds that begin at that altitude, by places in the scene: none where all of them are over

@@ -41,6 +41,7 @@ mod renderer;
 mod screen;
 mod shader;
 mod shafts;
+mod silhouettes;
 mod spread;
 mod starfield;
 mod sunlight;

@@ -73,6 +73,11 @@ impl Prepared {
         }
     }
 
+    /// True where something stands before the sky that hides it or not, pixel by pixel.
+    pub(crate) fn has_silhouettes(&self) -> bool {
+        self.ground.as_ref().is_some_and(Groundscape::has_silhouettes)
+    }
+
     /// What clouds let through, by direction or in the tile's table.
     pub(crate) fn clouds_seen<'a>(&'a self, tile: Option<&'a Table>) -> Option<CloudsSeen<'a>> {
         let dome = self.dome.as_ref().map(CloudsSeen::Dome);

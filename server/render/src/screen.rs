@@ -11,11 +11,15 @@ pub(crate) const PICTURE_BYTES: u64 = 4;
 pub(crate) struct Buffers {
     pub(crate) radiance: wgpu::Buffer,
     pub(crate) picture: wgpu::Buffer,
+    /// The light of the ground that the radiance was made with.
+    pub(crate) ground: Option<wgpu::Buffer>,
+    /// Such light, readable.
+    pub(crate) ground_staging: Option<wgpu::Buffer>,
     /// Either of them, readable.
     pub(crate) staging: wgpu::Buffer,
     /// The exposure, readable.
     pub(crate) exposure: wgpu::Buffer,
-    pixels: u64,
+    pub(crate) pixels: u64,
     /// What the radiance was made from.
     pub(crate) holds: Option<Fingerprint>,
     /// What a picture was made from whose radiance was not kept.
@@ -44,6 +48,8 @@ impl Screen {
                 ),
                 staging: gpu.buffer("staging", RADIANCE_BYTES * pixels, readable),
                 exposure: gpu.buffer("exposure", EXPOSURE_BYTES, readable),
+                ground: None,
+                ground_staging: None,
                 pixels,
                 holds: None,
                 shown: None,

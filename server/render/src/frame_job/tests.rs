@@ -6,6 +6,7 @@ use super::*;
 
 mod lattices;
 mod refined;
+mod silhouettes;
 use crate::tests::engine;
 use welkin_scene::{Direction, Exposure, Projection, Quality, Scene, renderer::Priority, sun::SunPosition};
 

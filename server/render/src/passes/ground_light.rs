@@ -34,7 +34,8 @@ pub(crate) struct LightInputs<'a> {
 }
 
 /// Of the light in one direction.
-const LIT_BYTES: u64 = 16;
+/// Bytes of one pixel: four floats.
+pub(crate) const LIT_BYTES: u64 = 16;
 
 impl GroundLight {
     pub(crate) const fn new() -> Self {

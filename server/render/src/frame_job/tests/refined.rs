@@ -6,7 +6,7 @@ use std::sync::Mutex;
 use welkin_scene::refinement::{PASSES, pass_of};
 
 /// The frame, and what was seen of it on the way.
-fn refined(engine: &mut Engine, order: &FrameOrder, pixels: u32) -> (Arc<Frame>, Vec<Refined>) {
+pub(super) fn refined(engine: &mut Engine, order: &FrameOrder, pixels: u32) -> (Arc<Frame>, Vec<Refined>) {
     let all = Arc::new(Mutex::new(Vec::new()));
     let seen = Arc::clone(&all);
     let seen: OnPass = Box::new(move |refined| seen.lock().unwrap().push(refined));
