@@ -22,6 +22,44 @@ use sha2::{Digest, Sha256};
 use std::sync::Arc;
 use welkin_scene::renderer::PassTime;
 
+/// Noise and weather of one scene.
+pub(crate) struct CloudTextures {
+    pub(crate) shape: Arc<Table>,
+    pub(crate) detail: Arc<Table>,
+    pub(crate) curl: Arc<Table>,
+    pub(crate) first_weather: Arc<Table>,
+    pub(crate) second_weather: Arc<Table>,
+    pub(crate) sheet: Arc<Table>,
+}
+
+impl CloudTextures {
+    pub(crate) fn fingerprint(&self) -> Fingerprint {
+        let all = [
+            &self.shape,
+            &self.detail,
+            &self.curl,
+            &self.first_weather,
+            &self.second_weather,
+            &self.sheet,
+        ];
+        Fingerprint::of(all.map(|table| table.made_from))
+    }
+
+    /// The first bindings of every shader that asks where there is cloud.
+    pub(crate) fn binds<'a>(&'a self, clouds: &'a wgpu::Buffer) -> Vec<Bind<'a>> {
+        vec![
+            Bind::Buffer(clouds),
+            Bind::LinearRepeat,
+            Bind::Table(&self.shape.view),
+            Bind::Table(&self.detail.view),
+            Bind::Table(&self.curl.view),
+            Bind::Table(&self.first_weather.view),
+            Bind::Table(&self.second_weather.view),
+            Bind::Table(&self.sheet.view),
+        ]
+    }
+}
+
 /// How a texture is made: its shader writes four floats a texel, and these become bytes.
 pub(crate) struct Recipe {
     pub(crate) shader: &'static Shader,

@@ -3,7 +3,7 @@
 
 use crate::{
     cloud_dome::CloudDomes,
-    cloud_noise::CloudNoise,
+    cloud_noise::{CloudNoise, CloudTextures},
     cloud_sky::CloudSky,
     error::Error,
     gpu::{Gpu, Shape},
@@ -48,16 +48,6 @@ pub(crate) struct CloudPasses {
     pictures: Memo<Table>,
 }
 
-/// Noise and weather of one scene.
-pub(crate) struct CloudTextures {
-    shape: Arc<Table>,
-    detail: Arc<Table>,
-    curl: Arc<Table>,
-    first_weather: Arc<Table>,
-    second_weather: Arc<Table>,
-    sheet: Arc<Table>,
-}
-
 /// All that the march through a scene's clouds reads.
 pub(crate) struct Cloudscape {
     pub(crate) clouds: Part,
@@ -91,34 +81,6 @@ pub(crate) struct CloudParts {
     pub(crate) shade: wgpu::Buffer,
     pub(crate) observer: wgpu::Buffer,
     ground_shadow: (wgpu::Buffer, wgpu::Buffer),
-}
-
-impl CloudTextures {
-    pub(crate) fn fingerprint(&self) -> Fingerprint {
-        let all = [
-            &self.shape,
-            &self.detail,
-            &self.curl,
-            &self.first_weather,
-            &self.second_weather,
-            &self.sheet,
-        ];
-        Fingerprint::of(all.map(|table| table.made_from))
-    }
-
-    /// The first bindings of every shader that asks where there is cloud.
-    pub(crate) fn binds<'a>(&'a self, clouds: &'a wgpu::Buffer) -> Vec<Bind<'a>> {
-        vec![
-            Bind::Buffer(clouds),
-            Bind::LinearRepeat,
-            Bind::Table(&self.shape.view),
-            Bind::Table(&self.detail.view),
-            Bind::Table(&self.curl.view),
-            Bind::Table(&self.first_weather.view),
-            Bind::Table(&self.second_weather.view),
-            Bind::Table(&self.sheet.view),
-        ]
-    }
 }
 
 impl Cloudscape {

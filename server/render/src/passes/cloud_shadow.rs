@@ -2,7 +2,7 @@
 
 use super::Table;
 use crate::{
-    cloudscape::CloudTextures,
+    cloud_noise::CloudTextures,
     gpu::Shape,
     kernel::{Bind, Recorder, Variants},
     memo::{Fingerprint, Memo},

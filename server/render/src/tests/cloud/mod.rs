@@ -7,12 +7,8 @@ mod light;
 mod slab;
 
 use crate::{
-    cloud_sky::CloudSky,
-    cloudscape::{CloudPasses, CloudTextures},
-    gpu::Gpu,
-    kernel::Bind,
-    noise_cache::DiskCache,
-    uniforms::Part,
+    cloud_noise::CloudTextures, cloud_sky::CloudSky, cloudscape::CloudPasses, gpu::Gpu, kernel::Bind,
+    noise_cache::DiskCache, uniforms::Part,
 };
 use serde_json::{Value, json};
 use welkin_scene::{Scene, assets::SceneAssets};
