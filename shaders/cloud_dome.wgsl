@@ -1,7 +1,7 @@
 // Which clouds are seen in the directions of some blocks of the dome.
 import package::lib::cloud_march::march_clouds;
 import package::lib::cloud_ray::{air, cloud_ray, view};
-import package::lib::dome::{BLOCK_CORNERS, BLOCK_CELLS, BLOCK_SIDE, Dome, dome_sight};
+import package::lib::dome::{BLOCK_CORNERS, BLOCK_CELLS, BLOCK_SIDE, CELL_ANGLE, Dome, dome_sight};
 import package::lib::geometry::edge_cosine;
 import package::lib::view_ray::Observer;
 
@@ -11,9 +11,6 @@ import package::lib::view_ray::Observer;
 @group(0) @binding(12) var<storage, read> blocks: array<vec4u>;
 // Six vectors a corner, as `Nodes` has them.
 @group(0) @binding(13) var<storage, read_write> nodes: array<vec4f>;
-
-// Angle of a cell on the average, times their number to a side: √(4π).
-const CELL = 3.545;
 
 // Interleaved gradient noise (Jimenez 2014): even over every 3×3 corners.
 fn jitter_of(corner: vec2f) -> f32 {
@@ -28,7 +25,7 @@ fn cloud_dome(@builtin(global_invocation_id) id: vec3u) {
     let block = blocks[id.y];
     let corner = block.xy * BLOCK_CELLS + vec2u(id.x % BLOCK_SIDE, id.x / BLOCK_SIDE);
     let direction = dome_sight(dome, corner, view.up, edge_cosine(air.radius_m, view.altitude_m));
-    let seen = march_clouds(cloud_ray(observer, direction, jitter_of(vec2f(corner)), CELL / f32(dome.cells)));
+    let seen = march_clouds(cloud_ray(observer, direction, jitter_of(vec2f(corner)), CELL_ANGLE / f32(dome.cells)));
     let at = 6u * (block.z * BLOCK_CORNERS + id.x);
     nodes[at] = seen.first.distance_m;
     nodes[at + 1u] = seen.first.share;

@@ -2,7 +2,7 @@
 import package::lib::cloud_nodes::{FourNodes, Nodes};
 import package::lib::cloud_ray::{air, cloud_ray, view};
 import package::lib::cloud_seen::clouds_seen;
-import package::lib::dome::{BLOCK_CORNERS, BLOCK_CELLS, BLOCK_SIDE, Dome, dome_sight, dome_texel};
+import package::lib::dome::{BLOCK_CORNERS, BLOCK_CELLS, BLOCK_SIDE, CELL_ANGLE, Dome, dome_sight, dome_texel};
 import package::lib::geometry::edge_cosine;
 import package::lib::view_ray::Observer;
 
@@ -24,7 +24,7 @@ fn cloud_dome_light(@builtin(global_invocation_id) id: vec3u) {
     let in_block = vec2u(id.x % BLOCK_SIDE, id.x / BLOCK_SIDE);
     let corner = block.xy * BLOCK_CELLS + in_block;
     let direction = dome_sight(dome, corner, view.up, edge_cosine(air.radius_m, view.altitude_m));
-    let ray = cloud_ray(observer, direction, 0.5, 0.0);
+    let ray = cloud_ray(observer, direction, 0.5, CELL_ANGLE / f32(dome.cells));
     let k = 6u * (block.z * BLOCK_CORNERS + id.x);
     let first = FourNodes(nodes[k], nodes[k + 1u], nodes[k + 2u]);
     let light = clouds_seen(ray, Nodes(first, FourNodes(nodes[k + 3u], nodes[k + 4u], nodes[k + 5u])));

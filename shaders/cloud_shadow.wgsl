@@ -1,5 +1,5 @@
 // For each band and sheet of clouds the optical depth towards the light, by where the way to it crosses their middle.
-import package::lib::cloud::{band_at, band_extinction, clouds, sheet_optical_depth};
+import package::lib::cloud::{COARSE, band_at, band_extinction, clouds, sheet_optical_depth};
 import package::lib::cloud_shade::{CloudShade, LOWER_SHARES, UPPER_SHARES, depth_to_map, light_cosine, shade_place};
 
 struct Shadow {
@@ -53,7 +53,7 @@ fn cloud_shadow(@builtin(global_invocation_id) id: vec3u) {
             for (var i = 0.5; i < steps; i += 1.0) {
                 let at_m = h - i * step_m;
                 let at = p + (at_m - middle_m) / mu * shadow.light;
-                depth += band_extinction(band, at, at_m, false, 0.0).value * step_m / abs(mu);
+                depth += band_extinction(band, at, at_m, COARSE).value * step_m / abs(mu);
             }
             h = below_m;
             upper = select(upper, vec4f(depth), vec4u(0u, 1u, 2u, 3u) == vec4u(k));

@@ -1,5 +1,6 @@
 // Where there is cloud, and how dense: weather, height profile and noise (Schneider 2015, 2017). Whoever imports from here
 // binds these first.
+import package::lib::cloud_far::{BILLOWS, BLURRED, CLUMP, clumped_extinction, clumps_between};
 import package::lib::geometry::along_sphere;
 
 // A layer of cloud with a thickness.
@@ -243,6 +244,11 @@ fn heaped(layer: CloudLayer, weather: Weather) -> f32 {
     return clamp(2.0 * t - 1.0, 0.0, 1.0);
 }
 
+// The coarse noise as the controls take it; a closed deck has it fill its gaps.
+fn low_noise(billows: f32, closed: f32) -> f32 {
+    return max(clamp((billows - clouds.low_least) * clouds.low_inverse_range, 0.0, 1.0), LEAST_CLOSED * closed);
+}
+
 struct Density {
     // 0 to 1.
     value: f32,
@@ -254,8 +260,20 @@ struct Density {
 const COARSE_WAVE = 0.3;
 const FINER_WAVE = 0.08;
 
-// Density at a place of one layer. `fine` also asks for what the detail noise takes away, seen through a blur.
-fn layer_density(layer: CloudLayer, weather: Weather, along_m: vec2f, altitude_m: f32, fine: bool, blur_m: f32) -> Density {
+// How a density is asked for.
+struct Look {
+    // Whether with what the detail noise takes away.
+    fine: bool,
+    // What is blurred of that, and of all noise.
+    blur_m: f32,
+    pixel_m: f32,
+}
+
+// Without the detail noise.
+const COARSE = Look(false, 0.0, 0.0);
+
+// Density at a place of one layer.
+fn layer_density(layer: CloudLayer, weather: Weather, along_m: vec2f, altitude_m: f32, look: Look) -> Density {
     let h = (altitude_m - layer.base_m) * layer.inverse_thickness_per_m;
     let strength = strength_of(layer, weather);
     let wanted = profile(layer, weather, strength, clamp(h, 0.0, 1.0));
@@ -263,19 +281,18 @@ fn layer_density(layer: CloudLayer, weather: Weather, along_m: vec2f, altitude_m
     var bulk = 0.0;
     if h > 0.0 && h < 1.0 && strength * wanted > 0.0 {
         let place = vec3f(along_m + clouds.shear_m * h, altitude_m);
-        let noise = textureSampleLevel(shape_volume, linear_repeat, place * clouds.base_inverse_scale_per_m - clouds.base_drift, 0.0);
-        let fbm = dot(noise.gba, vec3f(0.625, 0.25, 0.125));
-        let billows = clamp(((noise.r + 1.0 - fbm) / (2.0 - fbm) - clouds.low_least) * clouds.low_inverse_range, 0.0, 1.0);
         // A closed deck has no holes.
         let closed = smoothstep(0.85, 1.0, layer.coverage);
-        let low = max(billows, LEAST_CLOSED * closed);
+        let noise = textureSampleLevel(shape_volume, linear_repeat, place * clouds.base_inverse_scale_per_m - clouds.base_drift, 0.0);
+        let fbm = dot(noise.gba, vec3f(0.625, 0.25, 0.125));
+        let low = low_noise((noise.r + 1.0 - fbm) / (2.0 - fbm), closed);
         let anvil = layer.anvil * smoothstep(0.55, 0.8, h);
         // Heaps narrow upwards into towers; the anvil widens again.
         let narrowed = strength * (1.0 - heaped(layer, weather) * TAPER * h * h * (1.0 - anvil));
         let cover = pow(narrowed, 1.0 - 0.75 * anvil);
         density = clamp((low * wanted - 1.0 + cover) / max(cover, 1e-3), 0.0, 1.0) * cover;
         bulk = density;
-        if fine {
+        if look.fine {
             if density > 0.0 && density < BITE * clouds.erosion + 0.3 {
                 var at = place;
                 if clouds.curl_m > 0.0 {
@@ -285,7 +302,7 @@ fn layer_density(layer: CloudLayer, weather: Weather, along_m: vec2f, altitude_m
                 let detail_at = at * clouds.detail_inverse_scale_per_m - clouds.detail_drift;
                 let coarse = textureSampleLevel(detail_volume, linear_repeat, detail_at, 0.0).a;
                 let finer = textureSampleLevel(detail_volume, linear_repeat, 3.7 * detail_at, 0.0).a;
-                let blur = blur_m * clouds.detail_inverse_scale_per_m;
+                let blur = max(look.blur_m, look.pixel_m) * clouds.detail_inverse_scale_per_m;
                 let sharp = 0.6 * (coarse - 0.5) * (1.0 - smoothstep(0.3, 1.5, blur / COARSE_WAVE))
                     + 0.4 * (finer - 0.5) * (1.0 - smoothstep(0.3, 1.5, blur / FINER_WAVE));
                 let detail = smoothstep(0.15, 0.85, 0.5 + sharp);
@@ -293,19 +310,30 @@ fn layer_density(layer: CloudLayer, weather: Weather, along_m: vec2f, altitude_m
                 let bite = mix(detail, 1.0 - detail, clamp(4.0 * h, 0.0, 1.0)) * BITE * clouds.erosion * (1.0 - 0.7 * closed);
                 density = clamp((density - bite) / max(1.0 - bite, 1e-3), 0.0, 1.0);
             }
+            let far = smoothstep(BLURRED.x, BLURRED.y, look.pixel_m * clouds.base_inverse_scale_per_m);
+            if far > 0.0 {
+                let bite = 0.5 * BITE * clouds.erosion * (1.0 - 0.7 * closed);
+                let inverse = 1.0 / max(1.0 - bite, 1e-3);
+                let least = (low_noise(BILLOWS.x, closed) * wanted - 1.0 + cover - bite) * inverse;
+                let most = (low_noise(BILLOWS.y, closed) * wanted - 1.0 + cover - bite) * inverse;
+                let clumps = clumps_between(least, most, max((cover - bite) * inverse, 1e-3));
+                let even_per_m = clumped_extinction(clumps.share, layer.extinction_per_m * clumps.density, CLUMP / clouds.base_inverse_scale_per_m);
+                density = mix(density, even_per_m / layer.extinction_per_m, far);
+                bulk = max(bulk, clumps.share);
+            }
         }
     }
     return Density(density, bulk);
 }
 
 // Extinction coefficient at a place of a band, 1/m, and the density before the detail noise.
-fn band_extinction(band: CloudBand, p: vec3f, altitude_m: f32, fine: bool, blur_m: f32) -> Density {
+fn band_extinction(band: CloudBand, p: vec3f, altitude_m: f32, look: Look) -> Density {
     let along_m = along_sphere(clouds.radius_m, p, altitude_m);
     let weather = weather_at(along_m);
     var sum = Density(0.0, 0.0);
     for (var i = 0u; i < one_or(band.count); i++) {
         let layer = layer_at(band.first + i);
-        let density = layer_density(layer, weather, along_m, altitude_m, fine, blur_m);
+        let density = layer_density(layer, weather, along_m, altitude_m, look);
         sum.bulk += density.bulk;
         // Rain comes from drops that are larger and denser: darker cloud.
         sum.value += layer.extinction_per_m * (1.0 + 2.0 * clouds.precipitation * weather.rain) * density.value;
@@ -313,15 +341,28 @@ fn band_extinction(band: CloudBand, p: vec3f, altitude_m: f32, fine: bool, blur_
     return sum;
 }
 
+// Of a sheet, squares of weather systems to a metre, and how many of its own squares they push it aside.
+const SHEET_SYSTEMS = 8e-7;
+const SHEET_TURN = 1.5;
+
 // Vertical optical depth of a sheet.
 fn sheet_optical_depth(sheet: CloudSheet, p: vec3f, altitude_m: f32) -> f32 {
     let along_m = along_sphere(clouds.radius_m, p, altitude_m);
-    let at = vec2f(dot(along_m, sheet.turn), dot(along_m, vec2f(-sheet.turn.y, sheet.turn.x))) - sheet.drift;
+    var at = vec2f(dot(along_m, sheet.turn), dot(along_m, vec2f(-sheet.turn.y, sheet.turn.x))) - sheet.drift;
+    // Far from the scene streaks turn with the weather, and gather.
+    let far = smoothstep(1e5, 6e5, length(along_m));
+    var system = vec2f(0.0);
+    if far > 0.0 {
+        let place = SHEET_SYSTEMS * along_m;
+        system = vec2f(textureSampleLevel(sheet_texture, linear_repeat, place, 0.0).b, textureSampleLevel(sheet_texture, linear_repeat, place.yx + 0.43, 0.0).b);
+        at += far * SHEET_TURN * (system - 0.5);
+    }
     let first = textureSampleLevel(sheet_texture, linear_repeat, at, 0.0);
     let second = textureSampleLevel(sheet_texture, linear_repeat, 0.31 * at + vec2f(0.37, 0.11), 0.0);
     let values = array<f32, 3>(first.r, first.g, first.b);
     let wide = array<f32, 3>(second.b, second.b, second.b);
-    let spread = share_below(vec3f(values[sheet.channel] + SECOND_WEIGHT * wide[sheet.channel])).x;
+    let near = share_below(vec3f(values[sheet.channel] + SECOND_WEIGHT * wide[sheet.channel])).x;
+    let spread = mix(near, share_below(vec3f(system.x + SECOND_WEIGHT * near)).x, far);
     let over = clamp((spread - 1.0 + sheet.coverage * 1.2) / 0.6, 0.0, 1.0);
     return sheet.optical_depth * over * over * (0.6 + 0.4 * first.a);
 }

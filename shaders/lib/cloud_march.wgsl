@@ -1,5 +1,5 @@
 // Which clouds a ray sees. Whoever imports from here binds what `lib/cloud_ray.wgsl` names.
-import package::lib::cloud::{CloudSheet, band_at, band_extinction, clouds, one_or, sheet_optical_depth};
+import package::lib::cloud::{CloudSheet, Look, band_at, band_extinction, clouds, one_or, sheet_optical_depth};
 import package::lib::cloud_nodes::{NODE_SHARE, Nodes, with_node};
 import package::lib::cloud_ray::{CloudRay, place_at, view};
 import package::lib::geometry::{altitude_after, shell_stretch};
@@ -17,6 +17,8 @@ const CLOSER = 1.5;
 // there may be sun.
 const LEAST_APART = 0.04;
 const SPREAD = 8.0;
+// A band is crossed in no fewer steps, at the usual fineness.
+const CROSSING = 24.0;
 // Over which way clouds fade, where they are asked to.
 const HAZE_M = 3e4;
 // A ray through more air than this sees none of the clouds beyond.
@@ -39,6 +41,8 @@ fn march_band(index: u32, ray: CloudRay, start_m: f32, stop_m: f32) {
     let band = band_at(index);
     let least_m = band.thickness_m / (128.0 * clouds.fineness);
     let growth = 0.5 * 0.0125 / clouds.fineness;
+    // Far away, from an orbit, what a ray crosses is short for its distance.
+    let longest_m = max(least_m, (stop_m - start_m) / (CROSSING * clouds.fineness));
     // Each step is a cell, looked at somewhere in it; the last one ends where the band does.
     var t = start_m;
     var empty = 0u;
@@ -52,7 +56,7 @@ fn march_band(index: u32, ray: CloudRay, start_m: f32, stop_m: f32) {
         let through = left * (1.0 - pending.x);
         let ends = t >= stop_m || through <= OPAQUE || k + 1u == most;
         let share_seen = left * pending.x;
-        let spread = !within || t - begun_m > SPREAD * max(least_m, growth * t);
+        let spread = !within || t - begun_m > SPREAD * min(max(least_m, growth * t), longest_m);
         let apart = share_seen >= NODE_SHARE || (share_seen > LEAST_APART && spread);
         if pending.x > 0.0 && (ends || apart) {
             note(pending.x, pending.y / pending.x, index, pending.z / pending.x);
@@ -61,12 +65,12 @@ fn march_band(index: u32, ray: CloudRay, start_m: f32, stop_m: f32) {
         if ends {
             break;
         }
-        let usual_m = max(least_m, growth * t);
+        let usual_m = min(max(least_m, growth * t), longest_m);
         let narrow_m = min(select(usual_m, usual_m / CLOSER, within), stop_m - t);
         // Not quite at a cell's end: an edge that begins with the cell belongs to it.
         let at = t + mix(0.05, 0.95, ray.jitter) * narrow_m;
         let h = altitude_after(clouds.radius_m, view.altitude_m, ray.mu, at);
-        let density = band_extinction(band, place_at(at, ray.direction), h, true, narrow_m);
+        let density = band_extinction(band, place_at(at, ray.direction), h, Look(true, narrow_m, ray.spread * at));
         // The way walked back is gone in close steps, whatever is there.
         if density.bulk <= 0.0 && t >= until_m {
             within = false;
@@ -89,12 +93,14 @@ fn march_band(index: u32, ray: CloudRay, start_m: f32, stop_m: f32) {
     }
 }
 
-// Places along each side of what a ray stands for, at which a sheet is looked at where nothing else evens it out.
+// Places along each side of what a ray stands for, at which a sheet is looked at.
 const SHEET_PLACES = 3;
+// What spans less of the sheet's pattern is even.
+const EVEN_SHARE = 0.004;
 
 fn sheet_passed(sheet: CloudSheet, p: vec3f, up: vec3f, ray: CloudRay, t: f32) -> f32 {
     let mu = max(abs(dot(up, ray.direction)), 0.02);
-    if ray.spread == 0.0 {
+    if t * ray.spread / mu * length(sheet.turn) < EVEN_SHARE {
         return exp(-sheet_optical_depth(sheet, p, sheet.height_m) / mu);
     }
     let level = ray.direction - dot(up, ray.direction) * up;

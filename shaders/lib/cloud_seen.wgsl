@@ -43,7 +43,7 @@ fn clouds_seen(ray: CloudRay, nodes: Nodes) -> vec4f {
             var source = vec3f(0.0);
             let lit = lit_past_ground(p);
             if index < FIRST_SHEET {
-                source = source_at(index, p, altitude_m, extinction, dimmed(around, lit), lobes);
+                source = source_at(index, p, altitude_m, extinction, dimmed(around, lit), lobes, ray.spread * distance_m);
             }
             if index >= FIRST_SHEET {
                 let sheet = clouds.sheets[index - FIRST_SHEET];

@@ -19,12 +19,20 @@ struct CloudShade {
     asymmetry: f32,
     // Altitude of the lowest base.
     base_m: f32,
+    // Optical depth of all of them towards the light, on average.
+    even_depth: f32,
 }
 
 // Texels stand closer by the square towards the centre.
 fn shade_coordinate(shade: CloudShade, along_m: vec2f) -> vec2f {
     let d = (along_m - shade.centre_m) / shade.reach_m;
     return 0.5 + 0.5 * sign(d) * sqrt(min(abs(d), vec2f(1.0)));
+}
+
+// 1 where the maps do not reach: what is there has the mean of all clouds, or the maps' edges would stand as stripes.
+fn beyond_maps(shade: CloudShade, along_m: vec2f) -> f32 {
+    let d = abs(along_m - shade.centre_m) / shade.reach_m;
+    return smoothstep(0.8, 1.0, max(d.x, d.y));
 }
 
 fn shade_place(shade: CloudShade, coordinate: vec2f) -> vec2f {
@@ -108,8 +116,10 @@ fn shade_depth(
         let middle_m = shade.middles_m[i / 4u][i % 4u];
         if middle_m > altitude_m {
             let way_m = distance_to_top(radius_m, middle_m, altitude_m, mu);
-            let at = shade_coordinate(shade, along_sphere(radius_m, p + way_m * light, middle_m));
-            sum += depth_from_map(textureSampleLevel(maps, linear_clamp, at, 2u * i + 1u, 0.0)).a;
+            let along_m = along_sphere(radius_m, p + way_m * light, middle_m);
+            let at = shade_coordinate(shade, along_m);
+            let depth = depth_from_map(textureSampleLevel(maps, linear_clamp, at, 2u * i + 1u, 0.0)).a;
+            sum += mix(depth, shade.even_depth / f32(shade.count), beyond_maps(shade, along_m));
         }
     }
     return sum;

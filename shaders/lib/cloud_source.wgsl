@@ -1,11 +1,12 @@
 // The light of a place in the clouds, and the air before it. Whoever imports from here binds what `lib/cloud_ray.wgsl` names,
 // and then this.
 import package::lib::aerial::aerial_to;
-import package::lib::cloud::{CloudBand, band_at, band_extinction, clouds};
+import package::lib::cloud::{COARSE, CloudBand, band_at, band_extinction, clouds};
+import package::lib::cloud_far::BLURRED;
 import package::lib::cloud_light::{Lobes, ambient_source, lit_source};
 import package::lib::cloud_ray::{CloudRay, air, view};
-import package::lib::cloud_shade::{CloudShade, LightDepth, light_cosine, light_depth_within, shade_depth};
-import package::lib::geometry::{altitude_after, distance_to_top};
+import package::lib::cloud_shade::{CloudShade, LightDepth, beyond_maps, light_cosine, light_depth_within, shade_depth};
+import package::lib::geometry::{along_sphere, altitude_after, distance_to_top};
 import package::lib::light::scattered_radiance;
 import package::lib::tables::{SkyViewRay, light_from_table, sun_cosine_unit, unit_to_coordinate};
 import package::lib::transmittance::transmittance_to_space;
@@ -44,7 +45,7 @@ fn depth_within(band: CloudBand, p: vec3f, altitude_m: f32, towards: vec3f, mu: 
         let far_m = most_m * far * far;
         let t = 0.5 * (near_m + far_m);
         let h = altitude_after(clouds.radius_m, altitude_m, mu, t);
-        sum += band_extinction(band, p + t * towards, h, false, 0.0).value * (far_m - near_m);
+        sum += band_extinction(band, p + t * towards, h, COARSE).value * (far_m - near_m);
         near_m = far_m;
     }
     return sum;
@@ -103,15 +104,20 @@ fn depth_beside(index: u32, band: CloudBand, p: vec3f, altitude_m: f32, mu_s: f3
     return depth;
 }
 
-// Source function of a place in a band, W/m²/sr.
-fn source_at(index: u32, p: vec3f, altitude_m: f32, extinction_per_m: f32, around: Surroundings, lobes: Lobes) -> vec3f {
+// Of a band, how much of its height has cloud as dense as where it is seen.
+const EVEN_FILLING = 0.5;
+
+// Source function of a place in a band, W/m²/sr; `pixel_m` is what is seen as one there.
+fn source_at(index: u32, p: vec3f, altitude_m: f32, extinction_per_m: f32, around: Surroundings, lobes: Lobes, pixel_m: f32) -> vec3f {
     let band = band_at(index);
     let mu_s = around.mu_s;
     let thickness = band.top_m - band.base_m;
     var way: LightDepth;
     let low = 1.0 - smoothstep(LOW_LIGHT.x, LOW_LIGHT.y, abs(mu_s));
     let preview = clouds.light_steps == 0u;
-    let steps = select(clouds.light_steps, LOW_LIGHT_STEPS, preview && low > 0.0);
+    let near_steps = select(clouds.light_steps, LOW_LIGHT_STEPS, preview && low > 0.0);
+    // The light of heaps that are finer than a pixel is that of their mean.
+    let steps = select(near_steps, 0u, pixel_m * clouds.base_inverse_scale_per_m > BLURRED.y);
     if steps == 0u {
         way = light_depth(index, band, p, altitude_m, mu_s);
     } else {
@@ -119,8 +125,16 @@ fn source_at(index: u32, p: vec3f, altitude_m: f32, extinction_per_m: f32, aroun
         way.before = depth_beside(index, band, p, altitude_m, mu_s, 1.0, steps, close_m);
         way.behind = depth_beside(index, band, p, altitude_m, mu_s, -1.0, steps, close_m);
     }
-    let over = shade_depth(shade, shade_maps, linear_clamp, clouds.radius_m, p, band.top_m, view.sun, mu_s);
     let h = clamp((altitude_m - band.base_m) / thickness, 0.0, 1.0);
+    let beyond = beyond_maps(shade, along_sphere(clouds.radius_m, p, altitude_m));
+    if beyond > 0.0 {
+        // The place's own density stands for the band's.
+        let out = EVEN_FILLING * extinction_per_m * thickness / abs(light_cosine(mu_s));
+        let before = select(h, 1.0 - h, mu_s >= 0.0);
+        way.before = mix(way.before, before * out, beyond);
+        way.behind = mix(way.behind, (1.0 - before) * out, beyond);
+    }
+    let over = shade_depth(shade, shade_maps, linear_clamp, clouds.radius_m, p, band.top_m, view.sun, mu_s);
     // Into a heap even light comes by the shortest way, not straight down: a share of the thickness on either side. Into a
     // deck there is no other way than the light's own, less its slant.
     let heap = 0.5 * extinction_per_m * thickness * vec2f(1.0 - h, h);

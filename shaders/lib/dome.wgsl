@@ -13,6 +13,9 @@ struct Dome {
     under_clouds: u32,
 }
 
+// Angle of a cell on the average, times their number to a side: √(4π).
+const CELL_ANGLE = 3.545;
+
 // Cells to a side of a block, and corners that it holds.
 const BLOCK_CELLS = 16u;
 const BLOCK_SIDE = BLOCK_CELLS + 1u;

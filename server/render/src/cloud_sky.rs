@@ -285,6 +285,7 @@ impl<'a> CloudSky<'a> {
             diffuse_left: narrow(diffuse),
             asymmetry: narrow(asymmetry),
             base_m: narrow(base_m),
+            even_depth: narrow(-direct.max(1e-9).ln()),
         }
     }
 

@@ -103,6 +103,7 @@ pub(crate) struct ShadeUniform {
     pub(crate) diffuse_left: f32,
     pub(crate) asymmetry: f32,
     pub(crate) base_m: f32,
+    pub(crate) even_depth: f32,
 }
 
 /// `Shadow` of `cloud_shadow.wgsl`.

@@ -37,7 +37,7 @@ fn cover(gpu: &Gpu, ready: &Ready, volume: bool) -> f64 {
         let step_m = (band.top_m - band.base_m) / 64.0;
         for (var k = 0u; k < 64u; k++) {
             let h = band.base_m + (f32(k) + 0.5) * step_m;
-            x.x += step_m * band_extinction(band, vec3f(a.xy, h), h, true, 0.0).value;
+            x.x += step_m * band_extinction(band, vec3f(a.xy, h), h, Look(true, 0.0, 0.0)).value;
         }"
     } else {
         "x.x = sheet_optical_depth(clouds.sheets[0], vec3f(a.xy, clouds.sheets[0].height_m), clouds.sheets[0].height_m);"

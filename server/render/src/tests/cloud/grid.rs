@@ -120,7 +120,7 @@ fn the_lattice_is_the_cloud() {
     let engine = engine();
     let ready = Ready::with(&engine.gpu, &mut passes(), &scene, &weather(&document));
     let cube = Cube::new(&document);
-    let statement = "x.x = band_extinction(clouds.bands[0], a.xyz, a.w, true, 0.0).value;";
+    let statement = "x.x = band_extinction(clouds.bands[0], a.xyz, a.w, Look(true, 0.0, 0.0)).value;";
     let found = evaluate(
         &engine.gpu,
         &shader::CLOUD_VIEW_LIGHT,

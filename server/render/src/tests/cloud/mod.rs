@@ -2,6 +2,7 @@
 //! against what can be known without computing it.
 
 mod cover;
+mod far;
 mod grid;
 mod light;
 mod slab;

@@ -157,6 +157,7 @@ fn shade_shadow_dome_and_frame() {
             diffuse_left: f32,
             asymmetry: f32,
             base_m: f32,
+            even_depth: f32,
         }
     );
     let shaders = [
