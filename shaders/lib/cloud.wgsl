@@ -252,7 +252,7 @@ fn low_noise(billows: f32, closed: f32) -> f32 {
 struct Density {
     // 0 to 1.
     value: f32,
-    // Before the detail noise has taken its part.
+    // The most that there may be, before the detail noise has taken its part.
     bulk: f32,
 }
 
@@ -326,7 +326,7 @@ fn layer_density(layer: CloudLayer, weather: Weather, along_m: vec2f, altitude_m
     return Density(density, bulk);
 }
 
-// Extinction coefficient at a place of a band, 1/m, and the density before the detail noise.
+// Extinction coefficient at a place of a band, 1/m, and the same before the detail noise.
 fn band_extinction(band: CloudBand, p: vec3f, altitude_m: f32, look: Look) -> Density {
     let along_m = along_sphere(clouds.radius_m, p, altitude_m);
     let weather = weather_at(along_m);
@@ -334,9 +334,10 @@ fn band_extinction(band: CloudBand, p: vec3f, altitude_m: f32, look: Look) -> De
     for (var i = 0u; i < one_or(band.count); i++) {
         let layer = layer_at(band.first + i);
         let density = layer_density(layer, weather, along_m, altitude_m, look);
-        sum.bulk += density.bulk;
         // Rain comes from drops that are larger and denser: darker cloud.
-        sum.value += layer.extinction_per_m * (1.0 + 2.0 * clouds.precipitation * weather.rain) * density.value;
+        let densest_per_m = layer.extinction_per_m * (1.0 + 2.0 * clouds.precipitation * weather.rain);
+        sum.bulk += densest_per_m * density.bulk;
+        sum.value += densest_per_m * density.value;
     }
     return sum;
 }

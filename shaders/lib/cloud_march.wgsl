@@ -1,6 +1,6 @@
 // Which clouds a ray sees. Whoever imports from here binds what `lib/cloud_ray.wgsl` names.
 import package::lib::cloud::{CloudSheet, Look, band_at, band_extinction, clouds, one_or, sheet_optical_depth};
-import package::lib::cloud_nodes::{NODE_SHARE, Nodes, with_node};
+import package::lib::cloud_nodes::{NODES, NODE_SHARE, Nodes, with_node};
 import package::lib::cloud_ray::{CloudRay, place_at, view};
 import package::lib::geometry::{altitude_after, shell_stretch};
 
@@ -13,10 +13,15 @@ const EMPTY = 4u;
 const WIDE = 3.0;
 // Within a cloud's bulk, where the detail noise has its edges, they are closer.
 const CLOSER = 1.5;
-// A cloud that stands apart, or is longer than so many steps, counts by itself if it is more than this: between two of them
-// there may be sun.
+// A cloud that stands apart, or is longer than this part of its distance, counts by itself if it is more than this: between
+// two of them there may be sun.
 const LEAST_APART = 0.04;
-const SPREAD = 8.0;
+const SPREAD = 0.05;
+// Nor longer than this part of what the ray crosses of a band.
+const SPREAD_LONGEST = 0.33;
+// Nor less than this part of what each place that is left would have if all had as much: else a near fringe would take them
+// all, and one would stand for the sky behind it.
+const FAIR_SHARE = 0.5;
 // A band is crossed in no fewer steps, at the usual fineness.
 const CROSSING = 24.0;
 // Over which way clouds fade, where they are asked to.
@@ -35,6 +40,11 @@ fn note(share: f32, distance_m: f32, index: u32, extinction_per_m: f32) {
     noted = with_node(noted, noted_count, distance_m, (1.0 - faded(distance_m)) * seen, index, extinction_per_m);
     noted_count += 1u;
     left -= seen;
+}
+
+fn least_share() -> f32 {
+    let places = f32(NODES) - f32(min(noted_count, NODES - 1u));
+    return max(LEAST_APART, FAIR_SHARE * left / places);
 }
 
 fn march_band(index: u32, ray: CloudRay, start_m: f32, stop_m: f32) {
@@ -56,8 +66,8 @@ fn march_band(index: u32, ray: CloudRay, start_m: f32, stop_m: f32) {
         let through = left * (1.0 - pending.x);
         let ends = t >= stop_m || through <= OPAQUE || k + 1u == most;
         let share_seen = left * pending.x;
-        let spread = !within || t - begun_m > SPREAD * min(max(least_m, growth * t), longest_m);
-        let apart = share_seen >= NODE_SHARE || (share_seen > LEAST_APART && spread);
+        let spread = !within || t - begun_m > clamp(SPREAD * t, 0.06 * band.thickness_m, SPREAD_LONGEST * (stop_m - start_m));
+        let apart = share_seen >= NODE_SHARE || (share_seen > least_share() && spread);
         if pending.x > 0.0 && (ends || apart) {
             note(pending.x, pending.y / pending.x, index, pending.z / pending.x);
             pending = vec3f(0.0);

@@ -31,6 +31,9 @@ struct CloudRay {
     spread: f32,
 }
 
+// Pixels of coarser pictures show a place of theirs, not the mean of all that they hold.
+const COARSEST_PIXEL = 0.0015;
+
 // A ray that nothing stops.
 const ENDLESS_M = 1e12;
 
@@ -45,7 +48,7 @@ fn cloud_ray(observer: Observer, direction: vec3f, jitter: f32, spread: f32) -> 
     let azimuth = angle_of_cosine(cosine_of_azimuth(mu, view.mu_s, nu));
     let to_top_m = distance_to_sphere(air.radius_m + air.top_m, view.altitude_m - air.top_m, mu);
     let from_m = select(0.0, to_top_m, view.altitude_m > air.top_m);
-    return CloudRay(direction, mu, nu, azimuth, angle_of_cosine(mu), ground, end_m, end_m, from_m, max(entry.length_m, 0.0), jitter, spread);
+    return CloudRay(direction, mu, nu, azimuth, angle_of_cosine(mu), ground, end_m, end_m, from_m, max(entry.length_m, 0.0), jitter, min(spread, COARSEST_PIXEL));
 }
 
 fn place_at(t: f32, direction: vec3f) -> vec3f {
