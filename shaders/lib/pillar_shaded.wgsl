@@ -5,8 +5,8 @@ import package::lib::pillar::{Crystals, Fan, Lamp, fan_of};
 import package::lib::pillar_lamp::{ice, mirrored, support_of};
 import package::lib::pillar_polar::{Polar, SHADED_ABOVE, SHADED_BELOW, gamma_of, unpack_row, widest};
 
-@group(0) @binding(16) var<uniform> polar: Polar;
-@group(0) @binding(17) var<storage, read> polar_words: array<u32>;
+@group(0) @binding(2) var<uniform> polar: Polar;
+@group(0) @binding(3) var<storage, read> polar_words: array<u32>;
 
 // The pillar's light where the plane's table lets it through.
 fn through_plane(air: Air, layer: Crystals, lamp: Lamp, fan: Fan, v: vec3f, sin_least: f32, psi0: f32, ends: vec2f, first: u32) -> vec3f {
@@ -66,8 +66,12 @@ fn through_plane(air: Air, layer: Crystals, lamp: Lamp, fan: Fan, v: vec3f, sin_
 }
 
 // As `open_pillar`, of the lamp at that place in the table.
-fn shaded_pillar(air: Air, lamp: Lamp, index: u32, v: vec3f, end_m: f32, blur_m: f32) -> vec3f {
+fn shaded_pillar(air: Air, layer: Crystals, lamp: Lamp, index: u32, v: vec3f, end_m: f32, blur_m: f32) -> vec3f {
     let fan = fan_of(lamp.place_m, v, blur_m);
+    let support = support_of(layer, fan, v.z, blur_m, end_m);
+    if support.factor == 0.0 {
+        return vec3f(0.0);
+    }
     // The angle of the ray's side from the upright plane, about the axis.
     let level = vec3f(-fan.e1.y, fan.e1.x, 0.0) * inverseSqrt(max(1.0 - fan.e1.z * fan.e1.z, 1e-12));
     let upright = cross(fan.e1, level) * select(1.0, -1.0, cross(fan.e1, level).z < 0.0);
@@ -78,34 +82,25 @@ fn shaded_pillar(air: Air, lamp: Lamp, index: u32, v: vec3f, end_m: f32, blur_m:
     let column = clamp((0.5 * chi / widest(polar, fan.e1) + 0.5) * f32(polar.columns) - 0.5, 0.0, f32(polar.columns) - 1.0);
     let left = min(u32(column), polar.columns - 2u);
     let side = base + 1u + select(polar.columns * (polar.rows + 1u), 0u, above);
-    var found = vec3f(0.0);
-    for (var i = 0u; i < ice.count; i++) {
-        let layer = ice.layers[i];
-        let support = support_of(layer, fan, v.z, blur_m, end_m);
-        if support.factor == 0.0 {
+    var sum = vec3f(0.0);
+    for (var k = 0u; k < ice.three; k++) {
+        let psi0 = fan.psi0 + (f32(k) - 1.0) * PI;
+        let ends = vec2f(max(psi0 - support.reach, support.ends.x), min(psi0 + support.reach, support.ends.y));
+        if ends.x >= ends.y {
             continue;
         }
-        var sum = vec3f(0.0);
-        for (var k = 0u; k < ice.three; k++) {
-            let psi0 = fan.psi0 + (f32(k) - 1.0) * PI;
-            let ends = vec2f(max(psi0 - support.reach, support.ends.x), min(psi0 + support.reach, support.ends.y));
-            if ends.x >= ends.y {
-                continue;
-            }
-            if !is_shaded {
-                sum += mirrored(air, layer, lamp, fan, v, support.sin_least, psi0, ends);
-                continue;
-            }
-            // Between the two planes nearest.
-            for (var c = 0u; c < ice.two; c++) {
-                let weight = select(1.0 - (column - f32(left)), column - f32(left), c == 1u);
-                if weight > 0.0 {
-                    let first = side + (left + c) * (polar.rows + 1u);
-                    sum += weight * through_plane(air, layer, lamp, fan, v, support.sin_least, psi0, ends, first);
-                }
+        if !is_shaded {
+            sum += mirrored(air, layer, lamp, fan, v, support.sin_least, psi0, ends);
+            continue;
+        }
+        // Between the two planes nearest.
+        for (var c = 0u; c < ice.two; c++) {
+            let weight = select(1.0 - (column - f32(left)), column - f32(left), c == 1u);
+            if weight > 0.0 {
+                let first = side + (left + c) * (polar.rows + 1u);
+                sum += weight * through_plane(air, layer, lamp, fan, v, support.sin_least, psi0, ends, first);
             }
         }
-        found += layer.face_per_m * support.factor * sum;
     }
-    return found * lamp.intensity / (2.0 * fan.b);
+    return sum * lamp.intensity * (layer.face_per_m * support.factor / (2.0 * fan.b));
 }

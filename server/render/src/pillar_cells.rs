@@ -6,7 +6,10 @@
 
 use crate::{
     lens::Lens,
-    uniforms::pillars::{CrystalsUniform, LampUniform},
+    uniforms::{
+        narrow, narrow3,
+        pillars::{CrystalsUniform, LampUniform},
+    },
 };
 use glam::{DMat3, DVec2, DVec3, UVec2};
 use std::f64::consts::PI;
@@ -28,12 +31,17 @@ pub(crate) struct Cells {
     /// Where each cell's list begins, and where the last one ends.
     pub(crate) begins: Vec<u32>,
     pub(crate) lamps: Vec<u32>,
+    /// The cell of each entry.
+    pub(crate) owners: Vec<u32>,
+    /// About what each cell sees: a direction in the observer's own frame, and an angle.
+    pub(crate) cones: Vec<[f32; 4]>,
 }
 
 /// A cone of directions.
 #[derive(Clone, Copy, Debug)]
 struct Cone {
     middle: DVec3,
+    angle: f64,
     sin: f64,
     cos: f64,
 }
@@ -50,13 +58,14 @@ impl Cone {
         let middle = sights.iter().sum::<DVec3>().try_normalize()?;
         let cos = sights.iter().map(|s| s.dot(middle)).fold(1.0, f64::min);
         // What lies between the places seen bulges out by less than that.
-        let angle = cos.clamp(-1.0, 1.0).acos() * 1.1 + 1e-6;
-        let (sin, cos) = angle.min(PI).sin_cos();
-        Some(Self { middle, sin, cos })
-    }
-
-    fn angle(&self) -> f64 {
-        self.sin.atan2(self.cos)
+        let angle = (cos.clamp(-1.0, 1.0).acos() * 1.1 + 1e-6).min(PI);
+        let (sin, cos) = angle.sin_cos();
+        Some(Self {
+            middle,
+            angle,
+            sin,
+            cos,
+        })
     }
 }
 
@@ -75,13 +84,10 @@ impl Wedge<'_> {
         let along = self.towards.dot(cone.middle);
         let across = self.towards.cross(cone.middle);
         let sin_beta = across.length();
-        let beta = sin_beta.atan2(along);
-        let rho = cone.angle();
-        let near = if beta < rho + self.disc { NEAR_LAMP } else { 0 };
-        let nearest = (beta - rho).max(0.0);
-        // The blur widens what is near the lamp most.
-        let b = (self.d * nearest.min(PI - beta - rho).max(0.0).sin()).max(self.blur_m);
-        let pillar = self.layers.iter().any(|layer| {
+        // The blur widens what is near the lamp most: sin(β ± ρ) ≥ sin β cos ρ - sin ρ.
+        let b = (self.d * (sin_beta * cone.cos - cone.sin)).max(self.blur_m);
+        // sin(x + y) ≤ sin x + sin y, and q turns by the cone's angle over sin β.
+        let may_mirror = |layer: &CrystalsUniform| {
             let sin_max = f64::from(layer.sin_max);
             let spread = if layer.law == 1 {
                 0.5 * sin_max
@@ -89,15 +95,27 @@ impl Wedge<'_> {
                 f64::from(layer.sigma)
             };
             let widened = sin_max * (1.0 + (self.blur_m / (b * spread)).powi(2)).sqrt();
-            // sin(x + y) ≤ sin x + sin y, and q turns by the cone's angle over sin β.
-            let inside = across.z.abs() < widened * (sin_beta + cone.sin) + cone.sin || rho > 0.5;
-            inside && (beta < rho || self.reached(layer, cone, beta, rho))
-        });
+            across.z.abs() < widened * (sin_beta + cone.sin) + cone.sin || cone.angle > 0.5
+        };
+        let inside = self.layers.iter().any(may_mirror);
+        let reach = cone.angle + self.disc;
+        // cos x ≥ 1 - x²/2, so that no angle need be found.
+        if !inside && along < 1.0 - 0.5 * reach * reach {
+            return 0;
+        }
+        let beta = sin_beta.atan2(along);
+        let near = if beta < reach { NEAR_LAMP } else { 0 };
+        let pillar = inside
+            && self
+                .layers
+                .iter()
+                .any(|layer| may_mirror(layer) && (beta < cone.angle || self.reached(layer, cone, beta)));
         near | if pillar { IN_PILLAR } else { 0 }
     }
 
     /// Whether plates of the layer on the cone's rays may lie level enough.
-    fn reached(&self, layer: &CrystalsUniform, cone: &Cone, beta: f64, rho: f64) -> bool {
+    fn reached(&self, layer: &CrystalsUniform, cone: &Cone, beta: f64) -> bool {
+        let rho = cone.angle;
         let (base_m, top_m) = (f64::from(layer.base_m), f64::from(layer.top_m));
         let elevation = cone.middle.z.clamp(-1.0, 1.0).asin();
         let (low, high) = ((elevation - rho).sin(), (elevation + rho).sin());
@@ -203,14 +221,28 @@ pub(crate) fn cells(
     }
     let mut next = begins.clone();
     let mut listed = vec![0_u32; pairs.len()];
+    let mut owners = listed.clone();
     for (cell, entry) in pairs {
         let at = &mut next[cell as usize];
         listed[*at as usize] = entry;
+        owners[*at as usize] = cell;
         *at += 1;
     }
+    let cones = cell_cones
+        .iter()
+        .map(|cone| {
+            cone.as_ref().map_or([0.0; 4], |cone| {
+                narrow3(cone.middle.to_array())
+                    .extend(narrow(cone.angle))
+                    .to_array()
+            })
+        })
+        .collect();
     Cells {
         across: count.x,
         begins,
         lamps: listed,
+        owners,
+        cones,
     }
 }

@@ -14,6 +14,7 @@ use crate::{
     passes::{
         lamp_heights::LampHeights,
         pillar_polar::{PillarPolar, Polar},
+        pillar_shares::{PillarShares, Shares, SharesInputs},
     },
     pillar_cells::cells,
     uniforms::{
@@ -36,7 +37,14 @@ pub(crate) struct LampBuffer {
 pub(crate) struct CellBuffers {
     /// Where each cell's list begins, where the last one ends, and the lists.
     pub(crate) lists: wgpu::Buffer,
-    across: u32,
+    /// The cell of each entry of the lists.
+    pub(crate) owners: wgpu::Buffer,
+    /// What each cell sees.
+    pub(crate) cones: wgpu::Buffer,
+    /// Where the lists begin, and how many entries they have.
+    pub(crate) first: u32,
+    pub(crate) entries: u32,
+    pub(crate) across: u32,
     /// Lamps of a cell, on average.
     mean: f64,
 }
@@ -48,6 +56,8 @@ pub(crate) struct Pillars {
     pub(crate) lamps: Arc<LampBuffer>,
     pub(crate) cells: Arc<CellBuffers>,
     pub(crate) polar: Option<Arc<Polar>>,
+    /// None where each pixel sums by itself.
+    pub(crate) shares: Option<Arc<Shares>>,
     /// True where clouds may be before them.
     pub(crate) lamps_clouded: bool,
     pub(crate) sun_clouded: bool,
@@ -76,6 +86,7 @@ impl Pillars {
 pub(crate) struct PillarPasses {
     heights: LampHeights,
     polar: PillarPolar,
+    shares: PillarShares,
     standing: Memo<Vec<Lamp>>,
     seen: Memo<LampBuffer>,
     cells: Memo<CellBuffers>,
@@ -92,6 +103,7 @@ impl PillarPasses {
         Self {
             heights: LampHeights::new(),
             polar: PillarPolar::new(),
+            shares: PillarShares::new(),
             standing: Memo::new(3),
             seen: Memo::new(4),
             cells: Memo::new(4),
@@ -103,7 +115,7 @@ impl PillarPasses {
         &mut self,
         recorder: &mut Recorder<'_>,
         (scene, assets): (&Scene, &SceneAssets),
-        (stand, night): (&Standpoint, &Night),
+        (stand, air, night): (&Standpoint, &Part, &Night),
         (ground, clouds_base_m): (Option<&Groundscape>, Option<f32>),
         picture: Picture<'_>,
     ) -> Result<Option<Pillars>, Error> {
@@ -190,6 +202,16 @@ impl PillarPasses {
                 lamps.made_from,
             )
         });
+        let inputs = SharesInputs {
+            air,
+            ice: &ice_part,
+            layers: ice.layers().len(),
+            lamps: &lamps,
+            cells: &cells,
+            polar: polar.as_deref(),
+            pixel_angle: narrow(pixel_angle),
+        };
+        let shares = self.shares.run(recorder, &inputs, cells_from);
         let mut uniform = PillarsUniform {
             east: own.row(0).as_vec3(),
             north: own.row(1).as_vec3(),
@@ -198,6 +220,7 @@ impl PillarPasses {
             cells_across: cells.across,
             glare: picture.map_or(0.0, |(.., glare)| narrow(glare)),
             pixel_angle: narrow(pixel_angle),
+            first: cells.first,
             ..PillarsUniform::default()
         };
         for (to, from) in uniform.distant.iter_mut().zip(&distant) {
@@ -220,12 +243,14 @@ impl PillarPasses {
                 (&ice_part, &scene_part),
                 (lamps.made_from, cells_from),
                 polar.as_ref().map(|p| p.made_from),
+                shares.as_ref().map(|s| s.made_from),
             )),
             ice: ice_part,
             scene: scene_part,
             lamps,
             cells,
             polar,
+            shares,
             lamps_clouded: over,
             sun_clouded: over || top_m > base_m,
         }))
@@ -239,8 +264,16 @@ impl CellBuffers {
         words.extend(&cells.lamps);
         // A buffer cannot be empty.
         words.push(0);
+        let filled = |label, bytes: &[u8]| {
+            let bytes = if bytes.is_empty() { &[0; 16] } else { bytes };
+            gpu.filled(label, bytes, wgpu::BufferUsages::STORAGE)
+        };
         Self {
-            lists: gpu.filled("cells", bytemuck::cast_slice(&words), wgpu::BufferUsages::STORAGE),
+            lists: filled("cells", bytemuck::cast_slice(&words)),
+            owners: filled("owners", bytemuck::cast_slice(&cells.owners)),
+            cones: filled("cones", bytemuck::cast_slice(&cells.cones)),
+            first,
+            entries: u32::try_from(cells.lamps.len()).unwrap_or(u32::MAX),
             across: cells.across,
             #[allow(clippy::cast_precision_loss, reason = "an average")]
             mean: cells.lamps.len() as f64 / cells.begins.len().max(1) as f64,

@@ -58,8 +58,8 @@ pub(crate) struct Prepared {
 const CLOUD_WORK: u32 = 48;
 /// Of a ray to what stands on the ground.
 const GROUND_WORK: u32 = 4;
-/// Of a lamp that a cell lists: a pixel that reads tables, and as much again in shadow.
-const LAMP_WORK: f64 = 1.0;
+/// Of a lamp that a cell lists, in the open.
+const LAMP_WORK: f64 = 0.4;
 
 impl Prepared {
     pub(crate) fn sky_inputs(&self) -> SkyInputs<'_> {

@@ -64,7 +64,7 @@ impl Engine {
             let pillars = self.pillars.0.scape(
                 &mut recorder,
                 (scene, assets),
-                (&tables.stand, &night),
+                (&tables.stand, &tables.air, &night),
                 (ground.as_ref(), clouds.as_ref().map(|scape| scape.base_m)),
                 None,
             )?;

@@ -21,6 +21,7 @@ pub(crate) mod ground_view;
 pub(crate) mod lamp_heights;
 pub(crate) mod multi_scattering;
 pub(crate) mod pillar_polar;
+pub(crate) mod pillar_shares;
 pub(crate) mod pillars;
 pub(crate) mod probe;
 pub(crate) mod shafts;

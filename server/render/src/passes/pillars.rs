@@ -21,6 +21,9 @@ pub(crate) struct PillarsInputs<'a> {
     pub(crate) lit_ground: Option<&'a wgpu::Buffer>,
 }
 
+/// Pixels of a column that an invocation looks along, as `pillars.wgsl` has it.
+const ROWS: u32 = 4;
+
 pub(crate) struct PillarsPass {
     kernels: Variants,
 }
@@ -71,11 +74,12 @@ impl PillarsPass {
         let none = Part::new(&PolarUniform::default());
         let polar = pillars.polar.as_ref();
         let polar_uniform = polar.map_or(&none, |polar| &polar.uniform).upload(gpu, "polar");
+        let shares = pillars.shares.as_ref();
         let binds = [
             Bind::Buffer(&air),
             Bind::Buffer(&ice),
-            Bind::Buffer(&scene),
-            Bind::Table(&inputs.transmittance.view),
+            Bind::Buffer(&polar_uniform),
+            Bind::Buffer(polar.map_or(&nowhere, |polar| &polar.words)),
             Bind::LinearClamp,
             Bind::Buffer(&camera),
             Bind::Buffer(radiance),
@@ -87,9 +91,9 @@ impl PillarsPass {
             Bind::Buffer(&tile),
             Bind::Buffer(&pillars.lamps.buffer),
             Bind::Buffer(&pillars.cells.lists),
-            Bind::Buffer(&directions),
-            Bind::Buffer(&polar_uniform),
-            Bind::Buffer(polar.map_or(&nowhere, |polar| &polar.words)),
+            Bind::Buffer(shares.map_or(&directions, |shares| &shares.buffer)),
+            Bind::Buffer(&scene),
+            Bind::Table(&inputs.transmittance.view),
             Bind::Buffer(listed.unwrap_or(&nowhere)),
         ];
         let flag = |on: bool| f64::from(u8::from(on));
@@ -97,12 +101,14 @@ impl PillarsPass {
         let mut constants = looks.constants().to_vec();
         constants.extend([
             ("GROUND", flag(inputs.lit_ground.is_some())),
+            ("SHARED", flag(shares.is_some())),
             ("SHADED", flag(polar.is_some())),
             ("CLOUDED_LAMPS", flag(clouded && pillars.lamps_clouded)),
             ("CLOUDED_SUN", flag(clouded && pillars.sun_clouded)),
             ("DOME", flag(dome.is_some())),
         ]);
         let kernel = self.kernels.get(gpu, &constants);
-        recorder.dispatch(kernel, &binds, looks.threads());
+        let [across, down, layers] = looks.threads();
+        recorder.dispatch(kernel, &binds, [across, down.div_ceil(ROWS), layers]);
     }
 }

@@ -58,7 +58,17 @@ pub(crate) struct PillarsUniform {
     pub(crate) cells_across: u32,
     pub(crate) glare: f32,
     pub(crate) pixel_angle: f32,
+    pub(crate) first: u32,
     pub(crate) distant: [DistantUniform; 2],
+}
+
+/// `Sharing` of `pillar_shares.wgsl`.
+#[derive(Clone, Copy, Debug, Default, ShaderType)]
+pub(crate) struct SharingUniform {
+    pub(crate) first: u32,
+    pub(crate) entries: u32,
+    pub(crate) pixel_angle: f32,
+    pub(crate) row: u32,
 }
 
 /// `Own` of `pillar_polar.wgsl`.

@@ -1,5 +1,6 @@
 //! Pillars of light: against the oracle, the twin, and what must not change them.
 
+mod cells;
 mod chance;
 mod laws;
 mod obstacles;
