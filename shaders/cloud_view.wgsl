@@ -2,7 +2,7 @@
 import package::lib::camera::{Camera, sight_at};
 import package::lib::cloud_march::march_clouds;
 import package::lib::cloud_nodes::Nodes;
-import package::lib::cloud_ray::{cloud_ray, sight_of_clouds};
+import package::lib::cloud_ray::{cloud_ray, sight_of_clouds, spread_of_pixel};
 import package::lib::view_ray::Observer;
 
 // As `sight_at` numbers it.
@@ -44,7 +44,7 @@ fn cloud_view(@builtin(global_invocation_id) id: vec3u) {
     let sight = sight_at(camera, PROJECTION, pixel + 0.5);
     var seen: Nodes;
     if sight.seen {
-        var ray = cloud_ray(observer, sight_of_clouds(sight.direction, camera.pixel_angle), jitter_of(pixel), camera.pixel_angle);
+        var ray = cloud_ray(observer, sight_of_clouds(sight.direction, camera.pixel_angle), jitter_of(pixel), spread_of_pixel(camera.pixel_angle));
         if GROUND {
             let distance_m = lit_ground[id.y * tile.size_px.x + id.x].w;
             ray.stop_m = select(ray.end_m, distance_m, distance_m >= 0.0);

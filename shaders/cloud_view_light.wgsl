@@ -1,7 +1,7 @@
 // The light of the clouds that every pixel of one tile sees.
 import package::lib::camera::{Camera, sight_at};
 import package::lib::cloud_nodes::{FourNodes, Nodes};
-import package::lib::cloud_ray::{cloud_ray, sight_of_clouds};
+import package::lib::cloud_ray::{cloud_ray, sight_of_clouds, spread_of_pixel};
 import package::lib::cloud_seen::clouds_seen;
 import package::lib::view_ray::Observer;
 
@@ -40,7 +40,7 @@ fn cloud_view_light(@builtin(global_invocation_id) id: vec3u) {
     let sight = sight_at(camera, PROJECTION, vec2f(in_frame) + 0.5);
     var value = vec4f(0.0, 0.0, 0.0, 1.0);
     if sight.seen {
-        var ray = cloud_ray(observer, sight_of_clouds(sight.direction, camera.pixel_angle), 0.5, camera.pixel_angle);
+        var ray = cloud_ray(observer, sight_of_clouds(sight.direction, camera.pixel_angle), 0.5, spread_of_pixel(camera.pixel_angle));
         if GROUND {
             let distance_m = lit_ground[id.y * tile.size_px.x + id.x].w;
             ray.stop_m = select(ray.end_m, distance_m, distance_m >= 0.0);

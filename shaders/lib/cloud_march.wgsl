@@ -1,7 +1,7 @@
 // Which clouds a ray sees. Whoever imports from here binds what `lib/cloud_ray.wgsl` names.
 import package::lib::cloud::{CloudSheet, Look, band_at, band_extinction, clouds, one_or, sheet_optical_depth};
 import package::lib::cloud_nodes::{NODES, NODE_SHARE, Nodes, with_node};
-import package::lib::cloud_ray::{CloudRay, place_at, view};
+import package::lib::cloud_ray::{COARSEST_PIXEL, CloudRay, place_at, view};
 import package::lib::geometry::{altitude_after, shell_stretch};
 
 // Nothing is seen through what lets less through.
@@ -80,7 +80,7 @@ fn march_band(index: u32, ray: CloudRay, start_m: f32, stop_m: f32) {
         // Not quite at a cell's end: an edge that begins with the cell belongs to it.
         let at = t + mix(0.05, 0.95, ray.jitter) * narrow_m;
         let h = altitude_after(clouds.radius_m, view.altitude_m, ray.mu, at);
-        let density = band_extinction(band, place_at(at, ray.direction), h, Look(true, narrow_m, ray.spread * at));
+        let density = band_extinction(band, place_at(at, ray.direction), h, Look(true, narrow_m, min(ray.spread, COARSEST_PIXEL) * at));
         // The way walked back is gone in close steps, whatever is there.
         if density.bulk <= 0.0 && t >= until_m {
             within = false;

@@ -31,8 +31,15 @@ struct CloudRay {
     spread: f32,
 }
 
-// Pixels of coarser pictures show a place of theirs, not the mean of all that they hold.
+// Of heaps and gaps coarser pictures show a place of theirs, not the mean of all that they hold.
 const COARSEST_PIXEL = 0.0015;
+// From lower down no pixel of a final frame holds much of a cloud.
+const HIGH_M = 3e4;
+
+// The angle that a pixel of a final frame stands for.
+fn spread_of_pixel(pixel_angle: f32) -> f32 {
+    return select(0.0, pixel_angle, view.altitude_m > HIGH_M);
+}
 
 // A ray that nothing stops.
 const ENDLESS_M = 1e12;
@@ -48,7 +55,7 @@ fn cloud_ray(observer: Observer, direction: vec3f, jitter: f32, spread: f32) -> 
     let azimuth = angle_of_cosine(cosine_of_azimuth(mu, view.mu_s, nu));
     let to_top_m = distance_to_sphere(air.radius_m + air.top_m, view.altitude_m - air.top_m, mu);
     let from_m = select(0.0, to_top_m, view.altitude_m > air.top_m);
-    return CloudRay(direction, mu, nu, azimuth, angle_of_cosine(mu), ground, end_m, end_m, from_m, max(entry.length_m, 0.0), jitter, min(spread, COARSEST_PIXEL));
+    return CloudRay(direction, mu, nu, azimuth, angle_of_cosine(mu), ground, end_m, end_m, from_m, max(entry.length_m, 0.0), jitter, spread);
 }
 
 fn place_at(t: f32, direction: vec3f) -> vec3f {

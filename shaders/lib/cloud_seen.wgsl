@@ -4,7 +4,7 @@ import package::lib::cloud_light::forward_lobes;
 import package::lib::cloud_march::{FIRST_SHEET, OPAQUE};
 import package::lib::cloud_nodes::{NODES, Nodes};
 import package::lib::cloud_on_ground::lit_past_ground;
-import package::lib::cloud_ray::{CloudRay, place_at, view};
+import package::lib::cloud_ray::{COARSEST_PIXEL, CloudRay, place_at, view};
 import package::lib::cloud_source::{AirBefore, Surroundings, air_before, sheet_source, source_at, surroundings, unlit_air};
 import package::lib::geometry::altitude_after;
 
@@ -43,7 +43,7 @@ fn clouds_seen(ray: CloudRay, nodes: Nodes) -> vec4f {
             var source = vec3f(0.0);
             let lit = lit_past_ground(p);
             if index < FIRST_SHEET {
-                source = source_at(index, p, altitude_m, extinction, dimmed(around, lit), lobes, ray.spread * distance_m);
+                source = source_at(index, p, altitude_m, extinction, dimmed(around, lit), lobes, min(ray.spread, COARSEST_PIXEL) * distance_m);
             }
             if index >= FIRST_SHEET {
                 let sheet = clouds.sheets[index - FIRST_SHEET];
