@@ -2,25 +2,38 @@
 //!
 //! Each worker is a process of its own with one thread of software Vulkan, so that two of them have a core each where
 //! there are two. The error of `frames` is the overhead: the time on the clock over what the workers spent rendering,
-//! less one.
+//! less one, each worker from the end of its first frame to the end of its last. `alone` is the same frames in as many
+//! processes that know neither queue nor store: the machine's own ceiling.
 
 use super::{
-    Account, Case, Limits, Setup, Size, Work,
-    stopwatch::{Spent, peak_memory_bytes},
+    Account, Case, Limits, Setup, Size, Work, process,
+    stopwatch::{Spent, Stopwatch, peak_memory_bytes},
+    viewer::Viewer,
 };
 use crate::{commands::Failure, settings::Settings};
 use serde_json::{Map, json};
 use std::{
+    collections::BTreeMap,
     path::Path,
     process::{Child, Command, Stdio},
+    sync::Arc,
+    thread,
     time::{Duration, Instant},
 };
 use tempfile::TempDir;
-use welkin_jobs::{JobId, Jobs, Queue, Store};
+use welkin_jobs::{JobId, Jobs, Queue, Rendered, Store};
+use welkin_scene::{JobPlan, JobRequest};
 
 /// A frame of this size takes about a second on one core.
 const SIZES: [Size; 1] = [Size::new(640, 360)];
 const FRAMES: u32 = 40;
+/// Seeds of the frames that are measured, and of those before them: other scenes, or they would be known already.
+const MEASURED: u32 = 0;
+const BEFORE: u32 = 1;
+/// A setup with this parameter is one of the processes of `alone`, and this the first of its frames.
+const FIRST: &str = "first";
+/// One software thread, so that two processes have a core each.
+const ONE_THREAD: (&str, &str) = ("LP_NUM_THREADS", "1");
 const TASKS: u32 = 10_000;
 const LOOK: Duration = Duration::from_millis(20);
 /// The overhead that is promised for tasks of a second.
@@ -64,9 +77,13 @@ impl Case for JobCase {
     }
 
     fn measure(&self, setup: &Setup, settings: &Settings) -> Result<Account, Failure> {
+        if setup.parameters.contains_key(FIRST) {
+            return share(setup, settings);
+        }
         let runtime = tokio::runtime::Runtime::new().map_err(Failure::file("starting"))?;
         let device = crate::open_renderer(settings)?.device();
-        let works = runtime.block_on(works(setup, settings))?;
+        let mut works = runtime.block_on(works(setup, settings))?;
+        works.insert(1, alone(self, setup, settings)?);
         Ok(Account {
             device,
             works,
@@ -84,31 +101,98 @@ async fn works(setup: &Setup, settings: &Settings) -> Result<Vec<Work>, Failure>
         None,
     );
     let begun = Instant::now();
-    let many = jobs.send(document(setup.size, TASKS), None).await?.id;
+    let many = jobs.send(document(setup.size, TASKS, BEFORE), None).await?.id;
     let sent = work("send-10000", begun.elapsed(), None);
     jobs.cancel(many).await?;
 
     let count: usize = setup.parameter("workers")?;
-    // One frame for each, so that shaders are compiled and all of them are there before the clock runs.
-    let warm = jobs.send(document(setup.size, 4), None).await?.id;
+    // Some frames for each, so that shaders are compiled and all of them are there before the clock runs.
+    let warm = jobs.send(document(setup.size, 4, BEFORE), None).await?.id;
     let _workers = (0..count)
         .map(|_| Worker::start(folder.path(), settings))
         .collect::<Result<Vec<_>, _>>()?;
     ended(&jobs, warm).await?;
     let begun = Instant::now();
-    let id = jobs.send(document(setup.size, FRAMES), None).await?.id;
+    let id = jobs.send(document(setup.size, FRAMES, MEASURED), None).await?.id;
     ended(&jobs, id).await?;
     let took = begun.elapsed();
-    let rendering = jobs.rendering(id).await?.as_secs_f64();
-    #[allow(clippy::cast_precision_loss, reason = "two workers")]
-    let overhead = took.as_secs_f64() * count as f64 / rendering - 1.0;
-    Ok(vec![sent, work("frames", took, Some(overhead))])
+    let overhead = overhead(&jobs.rendering(id).await?);
+    Ok(vec![sent, work("frames", took, overhead)])
 }
 
-fn document(size: Size, frames: u32) -> String {
+/// How much longer than they rendered the workers took for all frames but their first; none where each had but one.
+fn overhead(frames: &[Rendered]) -> Option<f64> {
+    let mut workers: BTreeMap<&str, Vec<&Rendered>> = BTreeMap::new();
+    for frame in frames {
+        workers.entry(&frame.worker).or_default().push(frame);
+    }
+    let (mut took, mut rendering) = (Duration::ZERO, Duration::ZERO);
+    for own in workers.values_mut() {
+        own.sort_by_key(|frame| frame.ended_ms);
+        if let [first, .., last] = own.as_slice() {
+            took += Duration::from_millis((last.ended_ms - first.ended_ms).unsigned_abs());
+            rendering += own[1..].iter().map(|frame| frame.rendering).sum::<Duration>();
+        }
+    }
+    (!rendering.is_zero()).then(|| took.as_secs_f64() / rendering.as_secs_f64() - 1.0)
+}
+
+/// The frames by themselves, in as many processes as there would be workers: the time of the last that is done.
+fn alone(case: &JobCase, setup: &Setup, settings: &Settings) -> Result<Work, Failure> {
+    let count: u32 = setup.parameter("workers")?;
+    let start = |first| {
+        let mut own = setup.clone();
+        own.parameters.insert(FIRST.to_owned(), json!(first));
+        process::start(case, &own, settings, None, &[ONE_THREAD])
+    };
+    let runs = thread::scope(|scope| {
+        let threads: Vec<_> = (0..count)
+            .map(|first| scope.spawn(move || start(first)))
+            .collect();
+        let ended = || Failure::Bench("a thread ended early".into());
+        let runs = threads.into_iter().map(|one| one.join().map_err(|_| ended())?);
+        runs.collect::<Result<Vec<_>, _>>()
+    })?;
+    let walls_ms = runs
+        .iter()
+        .flat_map(|run| &run.works)
+        .map(|work| work.spent.wall_ms);
+    let took = Duration::from_secs_f64(walls_ms.fold(0.0, f64::max) / 1e3);
+    Ok(work("alone", took, None))
+}
+
+/// One process of `alone`: every frame of which the number, divided by the workers, leaves this one's.
+fn share(setup: &Setup, settings: &Settings) -> Result<Account, Failure> {
+    let (first, workers): (u32, usize) = (setup.parameter(FIRST)?, setup.parameter("workers")?);
+    let plan = |seed| JobPlan::new(JobRequest::from_json(&document(setup.size, FRAMES, seed))?);
+    let (before, measured) = (plan(BEFORE)?, plan(MEASURED)?);
+    let renderer = crate::open_renderer(settings)?;
+    let viewer = Viewer {
+        renderer: &*renderer,
+        size: setup.size,
+        quality: measured.request().quality,
+        assets: Arc::default(),
+    };
+    for number in [0, 1] {
+        viewer.see("before", &before.frame(number)?.scene)?;
+    }
+    let watch = Stopwatch::start();
+    for number in (first..FRAMES).step_by(workers.max(1)) {
+        viewer.see("alone", &measured.frame(number)?.scene)?;
+    }
+    let spent = watch.stop();
+    let took = Duration::from_secs_f64(spent.wall_ms / 1e3);
+    Ok(Account {
+        device: renderer.device(),
+        works: vec![work("alone", took, None)],
+        peak_memory_bytes: peak_memory_bytes(),
+    })
+}
+
+fn document(size: Size, frames: u32, seed: u32) -> String {
     let Size { width_px, height_px } = size;
     json!({
-        "frames": {"kind": "random", "count": frames, "ranges": [
+        "frames": {"kind": "random", "count": frames, "seed": seed, "ranges": [
             {"field": "/sun/position/azimuth_deg", "from": 0, "to": 360},
             {"field": "/clouds/coverage", "from": 0.45, "to": 0.55}]},
         "width_px": width_px, "height_px": height_px,
@@ -160,7 +244,7 @@ impl Worker {
             .arg("--store")
             .arg(format!("file:{}", folder.join("results").display()))
             .args(["--log", "warn"])
-            .env("LP_NUM_THREADS", "1")
+            .envs([ONE_THREAD])
             .stdin(Stdio::null())
             .stdout(Stdio::null());
         if let Some(adapter) = &settings.adapter {
@@ -178,5 +262,32 @@ impl Drop for Worker {
         // One that has ended already needs no end.
         drop(self.0.kill());
         drop(self.0.wait());
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, reason = "tests fail by panicking")]
+
+    use super::*;
+
+    #[test]
+    fn the_overhead_is_what_a_worker_took_over_what_it_rendered() {
+        let frame = |worker: &str, ended_ms, rendering_ms| Rendered {
+            worker: worker.to_owned(),
+            ended_ms,
+            rendering: Duration::from_millis(rendering_ms),
+        };
+        // In any order; the first of each worker only says when it began: 2200 ms for 2000 ms of rendering.
+        let frames = [
+            frame("a", 3100, 500),
+            frame("b", 2000, 700),
+            frame("a", 2000, 900),
+            frame("b", 3100, 1000),
+            frame("a", 2550, 500),
+        ];
+        // To the rounding of one division.
+        assert!((overhead(&frames).unwrap() - 0.1).abs() < 1e-9);
+        assert_eq!(overhead(&frames[..2]), None);
     }
 }

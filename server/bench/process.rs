@@ -42,7 +42,7 @@ pub(super) fn measure(case: &dyn Case, setup: &Setup, settings: &Settings) -> Re
     serde_json::to_value(account).map_err(|e| Failure::Bench(format!("the account of {}: {e}", case.name())))
 }
 
-/// Measures in a process of its own.
+/// Measures in a process of its own, with these variables of the environment besides.
 ///
 /// # Errors
 /// Where it cannot be started or fails.
@@ -51,6 +51,7 @@ pub(super) fn start(
     setup: &Setup,
     settings: &Settings,
     config: Option<&Path>,
+    variables: &[(&str, &str)],
 ) -> Result<Run, Failure> {
     let program = std::env::current_exe().map_err(Failure::file("finding this program"))?;
     let mut command = Command::new(program);
@@ -65,6 +66,7 @@ pub(super) fn start(
     }
     command.args(["--require-gpu", &settings.require_gpu.to_string()]);
     let output = command
+        .envs(variables.iter().copied())
         .output()
         .map_err(Failure::file("starting a measuring process"))?;
     read(&output, &setup)

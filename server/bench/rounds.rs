@@ -72,7 +72,7 @@ pub(crate) fn run(plan: &Plan<'_>) -> Result<Report, Failure> {
             for one in group.iter_mut().filter(|one| round < one.rounds) {
                 bar.set_message(describe(one));
                 let start = Instant::now();
-                let run = process::start(one.case, &one.setup, plan.settings, plan.config)?;
+                let run = process::start(one.case, &one.setup, plan.settings, plan.config, &[])?;
                 bar.suspend(|| eprint!("{}", run.warnings));
                 one.runs.push(run);
                 measured = true;

@@ -74,6 +74,15 @@ impl Server {
             .await
     }
 
+    /// Removes a job with its results.
+    ///
+    /// # Errors
+    /// Where the server refuses, or cannot be reached.
+    pub(crate) async fn remove(&self, id: &str) -> Result<(), Failure> {
+        let path = format!("/v1/jobs/{id}?results=true");
+        self.answer(self.client.delete(self.url(&path))).await.map(drop)
+    }
+
     /// A file, piece by piece.
     ///
     /// # Errors

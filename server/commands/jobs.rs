@@ -35,9 +35,12 @@ pub(crate) struct Args {
     /// Stop it
     #[arg(long, requires = "id", conflicts_with_all = ["wait", "output"])]
     cancel: bool,
+    /// Remove it with all its results, once it has ended
+    #[arg(long, requires = "id", conflicts_with_all = ["wait", "output", "cancel"])]
+    remove: bool,
 }
 
-/// Lists jobs, or watches, fetches or stops one.
+/// Lists jobs, or watches, fetches, stops or removes one.
 ///
 /// # Errors
 /// Where the server refuses or cannot be reached, or the job ends badly while it is watched.
@@ -53,6 +56,9 @@ pub(crate) fn run(args: &Args, json: bool) -> Result<(), Failure> {
         if args.cancel {
             let job = server.cancel(id).await?;
             return tell(&job, json, || line(&job));
+        }
+        if args.remove {
+            return server.remove(id).await;
         }
         if args.wait || args.output.is_some() {
             return watch(&server, id, args.output.as_deref(), json).await;

@@ -44,6 +44,10 @@ pub(crate) struct ServeFlags {
     #[arg(long, value_name = "BYTES")]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(super) store_bytes: Option<u64>,
+    /// How long a job is kept after its end, with its results, days; 0 for ever [default: 0]
+    #[arg(long, value_name = "DAYS")]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) keep_results_days: Option<u32>,
     /// Address and port [default: 127.0.0.1:8080]
     #[arg(long, value_name = "ADDRESS:PORT")]
     #[serde(skip_serializing_if = "Option::is_none")]

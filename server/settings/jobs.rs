@@ -4,6 +4,7 @@ use super::Settings;
 use clap::Args;
 use etcetera::BaseStrategy;
 use serde::Serialize;
+use std::time::Duration;
 
 /// Flags of the commands that know jobs.
 #[derive(Args, Clone, Debug, Default, Serialize)]
@@ -41,6 +42,12 @@ impl Settings {
         let store =
             named(&self.store).or_else(|| Some(format!("file:{}", data()?.join("results").display())));
         queue.zip(store)
+    }
+
+    /// How long jobs are kept after their end; none for ever.
+    pub(crate) fn keep_results(&self) -> Option<Duration> {
+        let kept = Duration::from_secs(86_400 * u64::from(self.keep_results_days));
+        (!kept.is_zero()).then_some(kept)
     }
 
     /// True where somebody asked for jobs by name.

@@ -37,6 +37,7 @@ pub(crate) struct Settings {
     pub(crate) job_frames: usize,
     pub(crate) heartbeat_s: u32,
     pub(crate) store_bytes: u64,
+    pub(crate) keep_results_days: u32,
     pub(crate) listen: String,
     pub(crate) cache_bytes: u64,
     pub(crate) frame_memory_bytes: u64,
@@ -48,7 +49,7 @@ pub(crate) struct Settings {
 }
 
 /// Names of the settings, as the environment has them after `WELKIN_` (in capitals).
-const NAMES: [&str; 22] = [
+const NAMES: [&str; 23] = [
     "adapter",
     "require_gpu",
     "cache_dir",
@@ -63,6 +64,7 @@ const NAMES: [&str; 22] = [
     "job_frames",
     "heartbeat_s",
     "store_bytes",
+    "keep_results_days",
     "listen",
     "cache_bytes",
     "frame_memory_bytes",
@@ -103,6 +105,7 @@ impl Default for Settings {
             job_frames: 2,
             heartbeat_s: 5,
             store_bytes: 68_719_476_736,
+            keep_results_days: 0,
             listen: "127.0.0.1:8080".into(),
             cache_bytes: service.cache_bytes,
             frame_memory_bytes: service.frame_memory_bytes,
@@ -180,6 +183,7 @@ impl Settings {
             frame_memory_bytes: self.frame_memory_bytes,
             max_frame_pixels: self.max_frame_pixels,
             max_viewers: self.max_viewers,
+            keep_results: self.keep_results(),
             ..welkin_service::Settings::default()
         }
     }

@@ -1,5 +1,6 @@
 /** Jobs in the page, and the board of their queue. */
 import assert from 'node:assert/strict';
+import { createServer, request } from 'node:http';
 import { test } from 'node:test';
 import { useBrowser } from './page.mjs';
 
@@ -52,7 +53,44 @@ test('a job is stopped in the page', () =>
     await page.locator(`[data-job="${id}"][data-state="cancelled"]`).waitFor();
   }));
 
-test('the board under /jobs shows tasks and workers', () =>
+/** A proxy that has a server under a prefix, which it takes off. @param {string} url @param {string} prefix */
+async function behindPrefix(url, prefix) {
+  const proxy = createServer((asked, answer) => {
+    const path = asked.url ?? '';
+    if (!path.startsWith(`${prefix}/`)) return answer.writeHead(404).end();
+    const passed = request(new URL(path.slice(prefix.length + 1), url), { method: asked.method, headers: asked.headers }, (told) => {
+      answer.writeHead(told.statusCode ?? 500, told.headers);
+      told.pipe(answer);
+    });
+    passed.on('error', () => answer.destroy());
+    answer.on('close', () => passed.destroy());
+    asked.pipe(passed);
+  });
+  await new Promise((resolve) => proxy.listen(0, '127.0.0.1', () => resolve(null)));
+  const { port } = /** @type {import('node:net').AddressInfo} */ (proxy.address());
+  const close = () => {
+    proxy.close();
+    proxy.closeAllConnections();
+  };
+  return { url: `http://127.0.0.1:${port}${prefix}/`, close };
+}
+
+/** @param {import('playwright-core').Page} page @param {string} url */
+async function looksAtTheBoard(page, url) {
+  const place = new URL('jobs', url).pathname;
+  await page.goto(`${url}jobs`);
+  await page.getByText('welkin', { exact: false }).first().waitFor();
+  for (const view of ['tasks', 'workers', 'queues']) {
+    const link = page.locator(`a[href="/${view}"]`).first();
+    await link.click();
+    await page.waitForFunction((at) => location.pathname === at, `${place}/${view}`);
+  }
+  await page.reload();
+  await page.getByText('welkin', { exact: false }).first().waitFor();
+  assert.equal(new URL(page.url()).pathname, `${place}/queues`);
+}
+
+test('the board under /jobs shows tasks and workers, behind a proxy too', () =>
   open(
     async (page, server) => {
       const id = await send(server.url, { frames: { kind: 'list', scenes: [{ clouds: null }] }, ...small });
@@ -60,16 +98,13 @@ test('the board under /jobs shows tasks and workers', () =>
         state = (await (await fetch(`${server.url}v1/jobs/${id}`)).json()).state;
         await new Promise((resolve) => setTimeout(resolve, 200));
       }
-      await page.goto(`${server.url}jobs`);
-      await page.getByText('welkin', { exact: false }).first().waitFor();
-      for (const view of ['tasks', 'workers', 'queues']) {
-        const link = page.locator(`a[href="/${view}"]`).first();
-        await link.click();
-        await page.waitForFunction((at) => location.pathname === at, `/jobs/${view}`);
+      await looksAtTheBoard(page, server.url);
+      const proxy = await behindPrefix(server.url, '/skies');
+      try {
+        await looksAtTheBoard(page, proxy.url);
+      } finally {
+        proxy.close();
       }
-      await page.reload();
-      await page.getByText('welkin', { exact: false }).first().waitFor();
-      assert.equal(new URL(page.url()).pathname, '/jobs/queues');
     },
     { logs: /./ },
   ));

@@ -66,7 +66,7 @@ impl<'a> Bundle<'a> {
         let mut bytes = Vec::new();
         let left_bytes = self.left_bytes.get();
         entry
-            .take(left_bytes + 1)
+            .take(left_bytes.saturating_add(1))
             .read_to_end(&mut bytes)
             .map_err(Error::damaged)?;
         let Some(left_bytes) = left_bytes.checked_sub(bytes.len() as u64) else {

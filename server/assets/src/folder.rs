@@ -214,7 +214,7 @@ pub(crate) fn read_file(folder: &Dir, file_name: &str, limit_bytes: u64) -> io::
     let file = folder.open_with(file_name, &options)?;
     let stamp = Stamp::of(&file.metadata()?);
     let mut bytes = Vec::new();
-    file.take(limit_bytes + 1).read_to_end(&mut bytes)?;
+    file.take(limit_bytes.saturating_add(1)).read_to_end(&mut bytes)?;
     Ok((stamp, bytes))
 }
 

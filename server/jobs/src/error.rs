@@ -30,6 +30,16 @@ pub enum JobError {
         /// The job that it stands for.
         job: String,
     },
+    /// The job is still worked on.
+    #[error(
+        "job {job} is {state}: it can be removed once it has ended, or was stopped and its last frame has ended"
+    )]
+    Open {
+        /// The job.
+        job: String,
+        /// How far it is.
+        state: &'static str,
+    },
     /// All jobs together would take more than they may.
     #[error(
         "the job may take {bytes} bytes, and jobs here have {taken} of {most}: remove old ones, or raise --store-bytes"

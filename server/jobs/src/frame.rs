@@ -1,6 +1,9 @@
 //! One frame of a job: rendered, encoded, put into the store.
 
-use crate::{JobError, JobId, Store, assets::Thawed, jobs::beside, metrics, store::is_lasting, worker::Calm};
+use crate::{
+    JobError, JobId, Store, assets::Thawed, jobs::beside, metrics, queue::now_ms, store::is_lasting,
+    worker::Calm,
+};
 use bytes::Bytes;
 use serde_json::{Value, json};
 use std::{
@@ -221,5 +224,6 @@ fn told(frame: &Frame, probe: Value, bytes: usize, times: [Duration; 3]) -> Valu
         "encode_ms": encode_ms,
         "store_ms": store_ms,
         "passes": frame.passes,
+        "ended_ms": now_ms(),
     })
 }

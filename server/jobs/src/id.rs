@@ -36,6 +36,11 @@ impl JobId {
         self.within("assets")
     }
 
+    /// The folder of all that is in the store of it.
+    pub(crate) fn folder(self) -> Path {
+        Path::from(format!("jobs/{self}"))
+    }
+
     fn within(self, name: &str) -> Path {
         Path::from(format!("jobs/{self}/{name}"))
     }

@@ -36,6 +36,17 @@ pub struct Sent {
     pub is_new: bool,
 }
 
+/// A frame that is done.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Rendered {
+    /// The worker that rendered it.
+    pub worker: String,
+    /// When its file was in the store, milliseconds since 1970.
+    pub ended_ms: i64,
+    /// How long it was rendered.
+    pub rendering: Duration,
+}
+
 /// A request and all that its frames need from elsewhere, checked.
 pub(crate) struct Checked {
     pub(crate) plan: JobPlan,
@@ -47,6 +58,8 @@ pub(crate) struct Checked {
 const KNOWN: u64 = 1000;
 /// How long a status is news.
 const LATELY: Duration = Duration::from_millis(250);
+/// How long the status of a job that has ended is: another process may remove it.
+const FOR_GOOD: Duration = Duration::from_secs(60);
 
 impl Jobs {
     /// Jobs of a queue and a store. Scenes take their assets from `assets`; what a job names is copied into the store
@@ -59,7 +72,10 @@ impl Jobs {
             assets,
             limits: Limits::default(),
             lately: Cache::builder().max_capacity(KNOWN).time_to_live(LATELY).build(),
-            ended: Cache::new(KNOWN),
+            ended: Cache::builder()
+                .max_capacity(KNOWN)
+                .time_to_live(FOR_GOOD)
+                .build(),
         }
     }
 
@@ -232,17 +248,18 @@ impl Jobs {
         Ok((FileInfo { name: file, bytes }, stream))
     }
 
-    /// What workers have spent rendering frames of a job that are done, all together.
+    /// Who rendered the frames of a job that are done, when, and how long that took, in the frames' order.
     ///
     /// # Errors
     /// Where the queue fails.
-    pub async fn rendering(&self, id: JobId) -> Result<Duration, JobError> {
+    pub async fn rendering(&self, id: JobId) -> Result<Vec<Rendered>, JobError> {
         let settled = self.queue.settled(id).await?;
-        let ms: f64 = settled
-            .iter()
-            .filter_map(|frame| frame.told["render_ms"].as_f64())
-            .sum();
-        Ok(Duration::from_secs_f64(ms / 1e3))
+        let rendered = settled.into_iter().map(|frame| Rendered {
+            rendering: Duration::from_secs_f64(frame.told["render_ms"].as_f64().unwrap_or_default() / 1e3),
+            ended_ms: frame.told["ended_ms"].as_i64().unwrap_or_default(),
+            worker: frame.worker,
+        });
+        Ok(rendered.collect())
     }
 
     /// Files that were made of all frames of a job.

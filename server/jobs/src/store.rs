@@ -54,7 +54,9 @@ impl Store {
     pub fn folder(folder: &FilePath) -> Result<Self, JobError> {
         let what = || format!("making the folder {} for results", folder.display());
         fs::create_dir_all(folder).map_err(JobError::file(what()))?;
-        let store = LocalFileSystem::new_with_prefix(folder)?.with_fsync(true);
+        let store = LocalFileSystem::new_with_prefix(folder)?
+            .with_fsync(true)
+            .with_automatic_cleanup(true);
         Ok(Self::new(Arc::new(store)))
     }
 
@@ -119,6 +121,17 @@ impl Store {
     pub(crate) async fn list(&self, folder: &Path) -> Result<Vec<(Path, u64)>, JobError> {
         let found: Vec<_> = self.0.list(Some(folder)).try_collect().await?;
         Ok(found.into_iter().map(|meta| (meta.location, meta.size)).collect())
+    }
+
+    /// Removes all files below a folder.
+    pub(crate) async fn remove(&self, folder: &Path) -> Result<(), JobError> {
+        let found = self.0.list(Some(folder)).map_ok(|meta| meta.location).boxed();
+        let removed = self.0.delete_stream(found).filter(|done| {
+            // Another process may remove the same.
+            let gone = matches!(done, Err(object_store::Error::NotFound { .. }));
+            std::future::ready(!gone)
+        });
+        Ok(removed.try_for_each(|_| std::future::ready(Ok(()))).await?)
     }
 
     /// Files right inside a folder, with their lengths in bytes.

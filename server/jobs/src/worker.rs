@@ -38,8 +38,10 @@ use tracing::Instrument;
 use ulid::Ulid;
 use welkin_scene::renderer::Render;
 
-/// How often an idle worker looks for tasks: at first, and at most this long after.
+/// How often an idle worker looks for tasks: at first, and at most this long after. A file of this machine is looked
+/// into for nothing, a server has a thousand workers.
 const LOOK: Duration = Duration::from_millis(100);
+const LOOK_SELDOM_HERE: Duration = Duration::from_millis(500);
 const LOOK_SELDOM: Duration = Duration::from_secs(2);
 /// How often a frame in work asks whether its job was stopped.
 const CANCEL_LOOK: Duration = Duration::from_millis(500);
@@ -152,7 +154,7 @@ async fn take(shop: &Arc<Shop>, name: &str, settings: &WorkerSettings) -> Result
         Ok::<_, WorkerError>(())
     };
     macro_rules! run {
-        ($storage:ident, $config:path, $pool:expr) => {{
+        ($storage:ident, $config:path, $pool:expr, $seldom:expr) => {{
             let config = <$config>::default()
                 .queue(crate::queue::NAME)
                 .batch_size(1)
@@ -160,7 +162,7 @@ async fn take(shop: &Arc<Shop>, name: &str, settings: &WorkerSettings) -> Result
                 .missed_heartbeats(MISSED_HEARTBEATS);
             let backend = $storage::<Task>::new($pool)
                 .with_config(config)
-                .poll_with_backoff(LOOK, BackoffConfig::new(LOOK_SELDOM));
+                .poll_with_backoff(LOOK, BackoffConfig::new($seldom));
             WorkerBuilder::new(name)
                 .backend(backend)
                 .data(Arc::clone(shop))
@@ -171,8 +173,8 @@ async fn take(shop: &Arc<Shop>, name: &str, settings: &WorkerSettings) -> Result
         }};
     }
     match &shop.jobs.queue {
-        Queue::Sqlite(pool) => run!(SqliteStorage, apalis_sqlite::Config, pool),
-        Queue::Postgres(pool) => run!(PostgresStorage, apalis_postgres::Config, pool),
+        Queue::Sqlite(pool) => run!(SqliteStorage, apalis_sqlite::Config, pool, LOOK_SELDOM_HERE),
+        Queue::Postgres(pool) => run!(PostgresStorage, apalis_postgres::Config, pool, LOOK_SELDOM),
     }
 }
 

@@ -61,6 +61,9 @@ pub(crate) enum Error {
     /// An idempotency key that stands for another document.
     #[error("{0}")]
     KeyTaken(String),
+    /// What is to be removed is still worked on.
+    #[error("{0}")]
+    StillOpen(String),
     /// The queue of jobs, or the store of their results, does not answer.
     #[error("the queue of jobs or the store of their results does not answer; try again in 5 s")]
     Unreachable { cause: String },
@@ -245,6 +248,7 @@ impl Error {
             Self::Slow { .. } => StatusCode::REQUEST_TIMEOUT,
             Self::BodyTooLarge { .. } | Self::FrameTooLarge(_) => StatusCode::PAYLOAD_TOO_LARGE,
             Self::MediaType { .. } | Self::WrongFile(_) => StatusCode::UNSUPPORTED_MEDIA_TYPE,
+            Self::StillOpen(_) => StatusCode::CONFLICT,
             Self::Precondition => StatusCode::PRECONDITION_FAILED,
             Self::NoRoom(_) => StatusCode::INSUFFICIENT_STORAGE,
             Self::Upgrade(_) => StatusCode::UPGRADE_REQUIRED,

@@ -24,12 +24,13 @@ pub(crate) const DOCS_POLICY: HeaderValue = HeaderValue::from_static(
 );
 
 /// All statuses that a problem may have.
-const PROBLEMS: [StatusCode; 13] = [
+const PROBLEMS: [StatusCode; 14] = [
     StatusCode::BAD_REQUEST,
     StatusCode::NOT_FOUND,
     StatusCode::METHOD_NOT_ALLOWED,
     StatusCode::NOT_ACCEPTABLE,
     StatusCode::REQUEST_TIMEOUT,
+    StatusCode::CONFLICT,
     StatusCode::PRECONDITION_FAILED,
     StatusCode::PAYLOAD_TOO_LARGE,
     StatusCode::UNSUPPORTED_MEDIA_TYPE,
@@ -57,6 +58,8 @@ pub(crate) struct Busy;
 pub(crate) struct Missing;
 /// What is said where a condition does not hold.
 pub(crate) struct Conditional;
+/// What is said while it is still worked on.
+pub(crate) struct InWork;
 /// What is said where nothing more can be stored.
 pub(crate) struct NoRoom;
 /// What is said where a WebSocket is expected.
@@ -67,7 +70,7 @@ type Responses = BTreeMap<String, RefOr<Response>>;
 impl IntoResponses for Refusals {
     fn responses() -> Responses {
         let refused = |status: &&StatusCode| {
-            status.is_client_error() && !matches!(status.as_u16(), 404 | 405 | 412 | 426)
+            status.is_client_error() && !matches!(status.as_u16(), 404 | 405 | 409 | 412 | 426)
         };
         refer(PROBLEMS.iter().filter(refused))
     }
@@ -88,6 +91,12 @@ impl IntoResponses for Missing {
 impl IntoResponses for Conditional {
     fn responses() -> Responses {
         refer(&[StatusCode::PRECONDITION_FAILED])
+    }
+}
+
+impl IntoResponses for InWork {
+    fn responses() -> Responses {
+        refer(&[StatusCode::CONFLICT])
     }
 }
 

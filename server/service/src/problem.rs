@@ -46,6 +46,7 @@ pub(crate) const fn component(status: StatusCode) -> (&'static str, &'static str
         StatusCode::METHOD_NOT_ALLOWED => ("MethodNotAllowed", "Method not allowed"),
         StatusCode::NOT_ACCEPTABLE => ("NotAcceptable", "Not acceptable"),
         StatusCode::REQUEST_TIMEOUT => ("Timeout", "Too slow"),
+        StatusCode::CONFLICT => ("Conflict", "Not in this state"),
         StatusCode::PRECONDITION_FAILED => ("PreconditionFailed", "Precondition failed"),
         StatusCode::INSUFFICIENT_STORAGE => ("InsufficientStorage", "Store full"),
         StatusCode::PAYLOAD_TOO_LARGE => ("TooLarge", "Too large"),

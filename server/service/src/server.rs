@@ -107,6 +107,7 @@ pub async fn serve(
     tokio::select! {
         () = accept => {}
         () = service.count_jobs() => {}
+        () = service.remove_old_jobs() => {}
         () = stop => {}
     }
     drop(listener);

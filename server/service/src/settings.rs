@@ -16,6 +16,8 @@ pub struct Settings {
     pub max_frame_pixels: u64,
     /// Live viewers at once.
     pub max_viewers: u32,
+    /// How long a job is kept after its end, with its results; none for ever.
+    pub keep_results: Option<Duration>,
     /// Frames encoded at once.
     pub encoders: u32,
     /// How long a request may take to send its body.
@@ -37,6 +39,7 @@ impl Default for Settings {
             frame_memory_bytes: 4 << 30,
             max_frame_pixels: u64::from(MAX_SIDE_PX) * u64::from(MAX_SIDE_PX),
             max_viewers: 64,
+            keep_results: None,
             encoders: u32::try_from(cores).unwrap_or(2),
             body_timeout: Duration::from_secs(30),
             memory_timeout: Duration::from_secs(10),

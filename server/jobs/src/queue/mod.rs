@@ -3,13 +3,14 @@
 //!
 //! What is asked of both databases is the same text but for the name of the table of tasks.
 
-mod latest;
 mod records;
+mod remove;
+mod settled;
 mod tasks;
 
 pub use records::State;
 pub(crate) use records::{Added, New, Record, Summary};
-pub(crate) use tasks::Settled;
+pub(crate) use settled::Settled;
 pub use tasks::{Counts, Dead};
 
 use crate::JobError;
@@ -24,6 +25,7 @@ use std::{
     str::FromStr,
     time::{Duration, SystemTime},
 };
+use tokio::time::sleep;
 
 /// As the tables of apalis call the queue.
 pub(crate) const NAME: &str = "welkin";
@@ -33,6 +35,10 @@ const CONNECTIONS: u32 = 4;
 const CONNECT_TIMEOUT: Duration = Duration::from_secs(10);
 /// How long SQLite waits for another process to finish writing.
 const BUSY_TIMEOUT: Duration = Duration::from_secs(30);
+/// How often, and after what pause, tables are made again that another process has just made: SQLite has no lock to
+/// keep it waiting.
+const MIGRATIONS: usize = 20;
+const MIGRATION_PAUSE: Duration = Duration::from_millis(100);
 
 /// The queue. Clones are the same queue.
 #[derive(Clone, Debug)]
@@ -89,6 +95,12 @@ impl Queue {
                 "a queue is sqlite:FILE or postgres://USER:PASSWORD@HOST/DATABASE".into(),
             ));
         };
+        for _ in 1..MIGRATIONS {
+            match queue.migrate().await {
+                Err(_) if matches!(queue, Self::Sqlite(_)) => sleep(MIGRATION_PAUSE).await,
+                done => return done.map(|()| queue),
+            }
+        }
         queue.migrate().await?;
         Ok(queue)
     }

@@ -111,7 +111,8 @@ pub(crate) struct Record {
 const COLUMNS: &str = "id, summary, frames, state, created_ms, ended_ms, notes";
 
 impl Queue {
-    /// Adds a job, unless one of this key is there or all together would take more than `most` bytes.
+    /// Adds a job, unless one of this key is there or all together would take more than `most` bytes, however many are
+    /// added at once: in SQLite one statement writes at a time, in PostgreSQL a lock lets one add at a time.
     pub(crate) async fn add(&self, job: &New<'_>, most: u64) -> Result<Added, JobError> {
         // Where there is no WHERE, SQLite takes ON CONFLICT for the ON of a join.
         let text = "INSERT INTO welkin_jobs (id, idempotency_key, document, summary, frames, state, created_ms, bytes) \
@@ -122,6 +123,13 @@ impl Queue {
         let room = i64::try_from(most).unwrap_or(i64::MAX);
         let bytes = i64::try_from(job.bytes).unwrap_or(i64::MAX);
         let added = on!(self, |pool, tasks| {
+            let mut transaction = pool.begin().await?;
+            if matches!(self, Self::Postgres(_)) {
+                // Before the statement that sums, which sees what was there when it began.
+                sqlx::query("SELECT pg_advisory_xact_lock(8386106348138)")
+                    .execute(&mut *transaction)
+                    .await?;
+            }
             let added = sqlx::query(text)
                 .bind(job.id.to_string())
                 .bind(job.key)
@@ -130,8 +138,12 @@ impl Queue {
                 .bind(i64::from(job.frames))
                 .bind(now_ms())
                 .bind(bytes)
-                .bind(room.saturating_sub(bytes));
-            added.execute(pool).await?.rows_affected()
+                .bind(room.saturating_sub(bytes))
+                .execute(&mut *transaction)
+                .await?
+                .rows_affected();
+            transaction.commit().await?;
+            added
         });
         if added == 1 {
             return Ok(Added::New);

@@ -49,12 +49,6 @@ pub struct Dead {
     pub reason: String,
 }
 
-/// A frame that is done, and what its worker said of it.
-pub(crate) struct Settled {
-    pub(crate) frame: u32,
-    pub(crate) told: Value,
-}
-
 impl Queue {
     /// Puts tasks into the queue, each unless it is there.
     pub(crate) async fn push(&self, id: JobId, parts: &[Part]) -> Result<(), JobError> {
@@ -219,53 +213,6 @@ impl Queue {
             reason: reason(result.as_deref().unwrap_or_default()),
         };
         Ok(rows.into_iter().map(dead).collect())
-    }
-
-    /// What workers said of the frames that are done, in order.
-    pub(crate) async fn settled(&self, id: JobId) -> Result<Vec<Settled>, JobError> {
-        let rows: Vec<(String, Option<String>)> = on!(self, |pool, tasks| {
-            let text = format!(
-                "SELECT idempotency_key, CAST(last_result AS TEXT) FROM {tasks} WHERE {} AND status = 'Done' \
-                 ORDER BY idempotency_key",
-                of_job(self),
-            );
-            let rows = sqlx::query(sqlx::AssertSqlSafe(text))
-                .bind(NAME)
-                .bind(prefix(self, id))
-                .fetch_all(pool)
-                .await?;
-            let read = |row| Ok::<_, sqlx::Error>((Row::try_get(row, 0)?, Row::try_get(row, 1)?));
-            rows.iter().map(read).collect::<Result<_, _>>()?
-        });
-        let settled = |(key, result): (String, Option<String>)| {
-            let Some(Part::Frame(frame)) = Part::of_key(&key) else {
-                return None;
-            };
-            let result: Value = serde_json::from_str(result.as_deref()?).ok()?;
-            let told = result.get("Ok").cloned().unwrap_or_default();
-            Some(Settled { frame, told })
-        };
-        Ok(rows.into_iter().filter_map(settled).collect())
-    }
-
-    /// What the files of the frames that are done take, bytes.
-    pub(crate) async fn stored_bytes(&self, id: JobId) -> Result<u64, JobError> {
-        let bytes: i64 = on!(self, |pool, tasks| {
-            let told = match self {
-                Self::Sqlite(_) => "json_extract(CAST(last_result AS TEXT), '$.Ok.bytes')",
-                Self::Postgres(_) => "CAST(last_result::jsonb #>> '{Ok,bytes}' AS BIGINT)",
-            };
-            let text = format!(
-                "SELECT CAST(coalesce(sum({told}), 0) AS BIGINT) FROM {tasks} WHERE {} AND status = 'Done'",
-                of_job(self)
-            );
-            sqlx::query_scalar(sqlx::AssertSqlSafe(text))
-                .bind(NAME)
-                .bind(prefix(self, id))
-                .fetch_one(pool)
-                .await?
-        });
-        Ok(u64::try_from(bytes).unwrap_or_default())
     }
 
     /// True while a task of the job waits or runs.

@@ -12,5 +12,6 @@ mod fake;
 mod faults;
 mod full;
 mod place;
+mod remove;
 mod servers;
 mod whole;

@@ -41,6 +41,15 @@ impl Place {
         }
     }
 
+    /// The same place with assets that scenes may name.
+    pub(crate) fn with_assets(self, assets: Arc<welkin_assets::Store>) -> Self {
+        let store = Store::folder(&self.results()).unwrap();
+        Self {
+            jobs: Jobs::new(self.queue.clone(), store, Some(assets)),
+            ..self
+        }
+    }
+
     /// The queue's address.
     pub(crate) fn queue(&self) -> String {
         format!("sqlite:{}", self.folder.path().join("queue.db").display())

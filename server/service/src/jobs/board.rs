@@ -1,8 +1,8 @@
 //! `/jobs`: the board of apalis, to look into the queue with.
 //!
-//! It is made to stand at the root of a site of its own and to change what it shows. Here it stands under `/jobs`, so
-//! the few places where its glue touches addresses are led there; and it only looks, because a task that somebody puts
-//! into the queue is checked by nobody.
+//! It is made to stand at the root of a site of its own and to change what it shows. Here it stands under `/jobs`, and
+//! behind a proxy under `/anything/jobs`, so the few places where its glue touches addresses are led to where its files
+//! came from; and it only looks, because a task that somebody puts into the queue is checked by nobody.
 
 use crate::{
     error::{Error, Fault},
@@ -65,7 +65,7 @@ const LED: [(&str, &str, usize); 4] = [
     ),
 ];
 const LEADING: &str = "
-const board = '/jobs';
+const board = new URL('.', import.meta.url).pathname.slice(0, -1);
 function inside(path) { return path.startsWith('/') && !outside.is(path) ? board + path : path; }
 function outside(path) { return outside.is(path) ? path.slice(board.length) || '/' : path; }
 outside.is = (path) => path === board || path.startsWith(board + '/');
@@ -82,8 +82,8 @@ pub(crate) fn routes(service: &Service) -> Router<Service> {
         Board::Postgres(tasks) => asked.register(Jobs::QUEUE, tasks).build(),
     };
     Router::new()
-        .route(PLACE, get(page))
-        .route("/jobs/", get(page))
+        .route(PLACE, get(file))
+        .route("/jobs/", get(file))
         .route("/jobs/{*file}", get(file))
         .route("/jobs/api/v1/events", get(events))
         .nest("/jobs/api/v1", asked.with_state(()))
@@ -138,12 +138,17 @@ async fn events(State(service): State<Service>) -> impl IntoResponse {
     Sse::new(silence).keep_alive(KeepAlive::default())
 }
 
-async fn page() -> Response {
+/// The page, for a view so many folders deep: it names its files from there, as a proxy may put something before.
+fn page(view: &str) -> Response {
+    let up = match view.strip_prefix('/') {
+        None => "jobs/".to_owned(),
+        Some(view) => format!("./{}", "../".repeat(view.matches('/').count())),
+    };
     let kind = (header::CONTENT_TYPE, "text/html; charset=utf-8");
     let text = format!(
         "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>Welkin: the queue</title>\
-         <link rel=\"stylesheet\" href=\"{PLACE}/{STYLE}\">\
-         <script type=\"module\" src=\"{PLACE}/start.js\"></script></head>\
+         <link rel=\"stylesheet\" href=\"{up}{STYLE}\">\
+         <script type=\"module\" src=\"{up}start.js\"></script></head>\
          <body class=\"h-screen overflow-hidden bg-background-dimmed text-white\"></body></html>\n"
     );
     ([kind, (header::CACHE_CONTROL, "no-cache")], text).into_response()
@@ -151,8 +156,8 @@ async fn page() -> Response {
 
 /// A file of the board; any other path is a view that the page itself shows.
 async fn file(uri: Uri) -> Result<Response, Error> {
-    let name = uri.path().strip_prefix(PLACE).unwrap_or_default();
-    let name = name.trim_start_matches('/');
+    let view = uri.path().strip_prefix(PLACE).unwrap_or_default();
+    let name = view.trim_start_matches('/');
     let text = |text: String| {
         let kind = (header::CONTENT_TYPE, "text/javascript; charset=utf-8");
         ([kind, (header::CACHE_CONTROL, "no-cache")], text).into_response()
@@ -160,12 +165,12 @@ async fn file(uri: Uri) -> Result<Response, Error> {
     match name {
         GLUE => Ok(text(glue().to_owned())),
         "start.js" => Ok(text(format!(
-            "import init from './{GLUE}';\nawait init({{module_or_path: '{PLACE}/{PROGRAM}'}});\n"
+            "import init from './{GLUE}';\nawait init({{module_or_path: new URL('{PROGRAM}', import.meta.url)}});\n"
         ))),
         PROGRAM => part(PROGRAM),
         STYLE => part(STYLE),
         _ if name.contains('.') || name.starts_with("api/") => Err(Error::NotFound(uri.path().to_owned())),
-        _ => Ok(page().await),
+        _ => Ok(page(view)),
     }
 }
 

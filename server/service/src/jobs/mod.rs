@@ -11,7 +11,7 @@ pub(crate) use events::get_events;
 use crate::{
     body::JobText,
     error::{Error, Fault},
-    openapi::{Busy, Missing, Refusals},
+    openapi::{Busy, InWork, Missing, Refusals},
     state::Service,
 };
 use axum::{
@@ -34,6 +34,8 @@ const LARGEST_PAGE: u32 = 100;
 const MAX_KEY_BYTES: usize = 200;
 /// How often the numbers of all jobs are looked at.
 const COUNT: Duration = Duration::from_secs(5);
+/// How often old jobs are looked for.
+const CLEAN: Duration = Duration::from_secs(60);
 /// A worker that was not heard of for three times this long is not counted, seconds.
 const HEARTBEAT_S: u32 = 10;
 
@@ -69,6 +71,21 @@ impl Service {
             sleep(COUNT).await;
         }
     }
+
+    /// Removes jobs that are older than they are kept, for as long as it is polled.
+    pub(crate) async fn remove_old_jobs(&self) {
+        let (Some(jobs), Some(kept)) = (&self.jobs, self.settings.keep_results) else {
+            return std::future::pending().await;
+        };
+        loop {
+            match jobs.remove_old(kept).await {
+                Ok(0) => {}
+                Ok(count) => tracing::info!(count, "old jobs are removed"),
+                Err(error) => tracing::warn!(%error, "old jobs are not removed"),
+            }
+            sleep(CLEAN).await;
+        }
+    }
 }
 
 impl From<JobError> for Error {
@@ -79,6 +96,7 @@ impl From<JobError> for Error {
             JobError::Unknown(id) => Self::NotFound(format!("/v1/jobs/{id}")),
             JobError::NoResult { job, name } => Self::NotFound(format!("/v1/jobs/{job}/results/{name}")),
             JobError::Full { .. } => Self::NoRoom(error.to_string()),
+            JobError::Open { .. } => Self::StillOpen(error.to_string()),
             JobError::KeyTaken { .. } => Self::KeyTaken(error.to_string()),
             JobError::Queue(_) | JobError::Store(_) => Self::Unreachable {
                 cause: error.to_string(),
@@ -155,19 +173,29 @@ pub(crate) async fn get_job(
 }
 
 /// Stops a job: what waits is not begun, what is being rendered ends at the next tile. Results that are there stay.
+///
+/// With `results=true` it removes one that has ended: its results, its labels, its copies of assets, and the job.
 #[utoipa::path(delete, path = "/v1/jobs/{id}", tag = "jobs",
-    params(("id" = String, Path, description = "The job")),
+    params(
+        ("id" = String, Path, description = "The job"),
+        ("results" = Option<bool>, Query, description = "`true` removes a job that has ended; `false` if left out")),
     responses(
         (status = 200, description = "It is stopped, or had ended", content_type = "application/json",
             body = ref("#/components/schemas/Job")),
-        Missing, Busy))]
+        (status = 204, description = "It is gone, with its results"),
+        Missing, InWork, Refusals, Busy))]
 pub(crate) async fn delete_job(
     State(service): State<Service>,
     id: Result<Path<String>, PathRejection>,
-) -> Result<Json<JobStatus>, Error> {
+    RawQuery(query): RawQuery,
+) -> Result<Response, Error> {
     let (jobs, id) = (service.jobs()?, named(id)?);
+    if with_results(query.as_deref().unwrap_or_default())? {
+        jobs.remove(id).await?;
+        return Ok(StatusCode::NO_CONTENT.into_response());
+    }
     jobs.cancel(id).await?;
-    Ok(Json(jobs.status(id).await?))
+    Ok(Json(jobs.status(id).await?).into_response())
 }
 
 /// A result: a frame by its number from 0, or a file that is made of all frames by its name.
@@ -237,18 +265,34 @@ fn idempotency_key(headers: &HeaderMap) -> Result<Option<&str>, Error> {
     })
 }
 
+fn parameters(query: &str) -> impl Iterator<Item = (&str, &str)> {
+    let pairs = query.split('&').filter(|pair| !pair.is_empty());
+    pairs.map(|pair| pair.split_once('=').unwrap_or((pair, "")))
+}
+
+fn wrong(name: &str, value: &str, allowed: &str) -> Error {
+    let shown: String = value.chars().take(80).collect();
+    let message = format!("`{name}` must be {allowed}, but is {shown}");
+    Error::Invalid(vec![Fault::query(name, shown, allowed.into(), message)])
+}
+
+fn with_results(query: &str) -> Result<bool, Error> {
+    let mut results = false;
+    for (name, value) in parameters(query) {
+        results = match (name, value) {
+            ("results", "true") => true,
+            ("results", "false") => false,
+            ("results", _) => return Err(wrong(name, value, "true or false")),
+            _ => return Err(wrong(name, value, "left out: the parameter is `results`")),
+        };
+    }
+    Ok(results)
+}
+
 fn page(query: &str) -> Result<(Option<JobId>, u32), Error> {
     let (mut before, mut limit) = (None, USUAL_PAGE);
-    for (name, value) in query
-        .split('&')
-        .filter(|pair| !pair.is_empty())
-        .map(|pair| pair.split_once('=').unwrap_or((pair, "")))
-    {
-        let wrong = |allowed: &str| {
-            let shown: String = value.chars().take(80).collect();
-            let message = format!("`{name}` must be {allowed}, but is {shown}");
-            Error::Invalid(vec![Fault::query(name, shown, allowed.into(), message)])
-        };
+    for (name, value) in parameters(query) {
+        let wrong = |allowed| wrong(name, value, allowed);
         match name {
             "limit" => {
                 let number = value.parse().ok().filter(|n| (1..=LARGEST_PAGE).contains(n));
