@@ -106,5 +106,5 @@ test('the board under /jobs shows tasks and workers, behind a proxy too', () =>
         proxy.close();
       }
     },
-    { logs: /./ },
+    { logs: /./, proxied: /^http:\/\/127\.0\.0\.1:\d+\/skies\// },
   ));

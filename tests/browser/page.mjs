@@ -58,9 +58,9 @@ export function useBrowser(more = []) {
   /**
    * Opens the page, runs a test on it, and demands that the page logged no error and asked no other host.
    * @param {(page: Page, server: Awaited<ReturnType<typeof startServer>>) => Promise<void>} act
-   * @param {{viewport?: {width: number, height: number}, hash?: string, clear?: boolean, touch?: boolean, logs?: RegExp}} [options] `clear`: no clouds, unless `hash` speaks of them; `logs`: what Chromium itself will log
+   * @param {{viewport?: {width: number, height: number}, hash?: string, clear?: boolean, touch?: boolean, logs?: RegExp, proxied?: RegExp}} [options] `clear`: no clouds, unless `hash` speaks of them; `logs`: what Chromium itself will log; `proxied`: other addresses of the server
    */
-  return async (act, { viewport = DESK, hash = '', clear = true, touch = false, logs } = {}) => {
+  return async (act, { viewport = DESK, hash = '', clear = true, touch = false, logs, proxied } = {}) => {
     const context = await browser.newContext({ viewport, hasTouch: touch, permissions: ['clipboard-read', 'clipboard-write'] });
     const page = await context.newPage();
     page.setDefaultTimeout(PATIENCE_MS);
@@ -74,7 +74,7 @@ export function useBrowser(more = []) {
     page.on('websocket', (socket) => socket.on('framesent', ({ payload }) => sent(page).push(JSON.parse(String(payload)))));
     page.on('request', (request) => {
       const { origin, protocol } = new URL(request.url());
-      if (protocol.startsWith('http') && `${origin}/` !== server.url) faults.push(`a request to ${request.url()}`);
+      if (protocol.startsWith('http') && `${origin}/` !== server.url && !proxied?.test(request.url())) faults.push(`a request to ${request.url()}`);
     });
     try {
       const isClear = clear && !hash.includes('clouds');

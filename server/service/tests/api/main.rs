@@ -10,6 +10,7 @@
 mod asset_files;
 mod asset_requests;
 mod asset_scenes;
+mod board;
 mod client;
 mod deaf;
 mod discovery;
