@@ -57,7 +57,10 @@ test('a job is stopped in the page', () =>
 async function behindPrefix(url, prefix) {
   const proxy = createServer((asked, answer) => {
     const path = asked.url ?? '';
-    if (!path.startsWith(`${prefix}/`)) return answer.writeHead(404).end();
+    if (!path.startsWith(`${prefix}/`)) {
+      answer.writeHead(404).end();
+      return;
+    }
     const passed = request(new URL(path.slice(prefix.length + 1), url), { method: asked.method, headers: asked.headers }, (told) => {
       answer.writeHead(told.statusCode ?? 500, told.headers);
       told.pipe(answer);
