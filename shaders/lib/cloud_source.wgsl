@@ -130,7 +130,8 @@ fn source_at(index: u32, p: vec3f, altitude_m: f32, extinction_per_m: f32, aroun
     if beyond > 0.0 {
         // The place's own density stands for the band's.
         let out = EVEN_FILLING * extinction_per_m * thickness / abs(light_cosine(mu_s));
-        let before = select(h, 1.0 - h, mu_s >= 0.0);
+        // Light that runs level comes from above and from below; no line may show where it turns.
+        let before = mix(h, 1.0 - h, smoothstep(-0.1, 0.1, mu_s));
         way.before = mix(way.before, before * out, beyond);
         way.behind = mix(way.behind, (1.0 - before) * out, beyond);
     }
