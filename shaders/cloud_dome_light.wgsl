@@ -4,16 +4,17 @@ import package::lib::cloud_ray::{air, cloud_ray, view};
 import package::lib::cloud_seen::clouds_seen;
 import package::lib::dome::{BLOCK_CORNERS, BLOCK_CELLS, BLOCK_SIDE, CELL_ANGLE, Dome, dome_sight, dome_texel};
 import package::lib::geometry::edge_cosine;
+import package::lib::shaft_lattice::Lost;
 import package::lib::view_ray::Observer;
 
-@group(0) @binding(20) var<uniform> dome: Dome;
-@group(0) @binding(21) var<uniform> observer: Observer;
+@group(0) @binding(21) var<uniform> dome: Dome;
+@group(0) @binding(22) var<uniform> observer: Observer;
 // Column and row of each block, and where it is kept.
-@group(0) @binding(22) var<storage, read> blocks: array<vec4u>;
+@group(0) @binding(23) var<storage, read> blocks: array<vec4u>;
 // Six vectors a corner, as `Nodes` has them.
-@group(0) @binding(23) var<storage, read> nodes: array<vec4f>;
+@group(0) @binding(24) var<storage, read> nodes: array<vec4f>;
 // Radiance to add in R, G, B; alpha is the share of what lies behind that comes through.
-@group(0) @binding(24) var seen: texture_storage_2d<rgba32float, write>;
+@group(0) @binding(25) var seen: texture_storage_2d<rgba32float, write>;
 
 @compute @workgroup_size(64)
 fn cloud_dome_light(@builtin(global_invocation_id) id: vec3u) {
@@ -27,6 +28,8 @@ fn cloud_dome_light(@builtin(global_invocation_id) id: vec3u) {
     let ray = cloud_ray(observer, direction, 0.5, CELL_ANGLE / f32(dome.cells));
     let k = 6u * (block.z * BLOCK_CORNERS + id.x);
     let first = FourNodes(nodes[k], nodes[k + 1u], nodes[k + 2u]);
-    let light = clouds_seen(ray, Nodes(first, FourNodes(nodes[k + 3u], nodes[k + 4u], nodes[k + 5u])));
+    // Shafts are found before pixels.
+    var lost: Lost;
+    let light = clouds_seen(ray, Nodes(first, FourNodes(nodes[k + 3u], nodes[k + 4u], nodes[k + 5u])), lost);
     textureStore(seen, dome_texel(block.z, in_block), light);
 }

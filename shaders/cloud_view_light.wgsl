@@ -3,6 +3,7 @@ import package::lib::camera::{Camera, sight_at};
 import package::lib::cloud_nodes::{FourNodes, Nodes};
 import package::lib::cloud_ray::{cloud_ray, sight_of_clouds, spread_of_pixel};
 import package::lib::cloud_seen::clouds_seen;
+import package::lib::shaft_lattice::Lost;
 import package::lib::view_ray::Observer;
 
 // As `sight_at` numbers it.
@@ -13,6 +14,8 @@ override WHOLE_FRAME: bool = false;
 
 // True where more than the sphere stands on the ground.
 override GROUND: bool = false;
+// True where shafts fall through the air.
+override SHAFTS: bool = false;
 
 struct Tile {
     origin_px: vec2u,
@@ -21,15 +24,17 @@ struct Tile {
     stride_px: u32,
 }
 
-@group(0) @binding(20) var<uniform> camera: Camera;
-@group(0) @binding(21) var<uniform> tile: Tile;
-@group(0) @binding(22) var<uniform> observer: Observer;
+@group(0) @binding(21) var<uniform> camera: Camera;
+@group(0) @binding(22) var<uniform> tile: Tile;
+@group(0) @binding(23) var<uniform> observer: Observer;
 // Six vectors a pixel, as `Nodes` has them.
-@group(0) @binding(23) var<storage, read> nodes: array<vec4f>;
+@group(0) @binding(24) var<storage, read> nodes: array<vec4f>;
 // Radiance to add in R, G, B; alpha is the share of what lies behind that comes through.
-@group(0) @binding(24) var table: texture_storage_2d<rgba32float, write>;
+@group(0) @binding(25) var table: texture_storage_2d<rgba32float, write>;
 // In alpha, how far away what stands on the ground is; else -1.
-@group(0) @binding(25) var<storage, read> lit_ground: array<vec4f>;
+@group(0) @binding(26) var<storage, read> lit_ground: array<vec4f>;
+// What each pixel loses to shafts.
+@group(0) @binding(27) var<storage, read> lost_to_shafts: array<Lost>;
 
 @compute @workgroup_size(8, 8)
 fn cloud_view_light(@builtin(global_invocation_id) id: vec3u) {
@@ -50,7 +55,11 @@ fn cloud_view_light(@builtin(global_invocation_id) id: vec3u) {
             k = 6u * (in_frame.y * u32(camera.size_px.x) + in_frame.x);
         }
         let first = FourNodes(nodes[k], nodes[k + 1u], nodes[k + 2u]);
-        value = clouds_seen(ray, Nodes(first, FourNodes(nodes[k + 3u], nodes[k + 4u], nodes[k + 5u])));
+        var lost: Lost;
+        if SHAFTS {
+            lost = lost_to_shafts[id.y * tile.size_px.x + id.x];
+        }
+        value = clouds_seen(ray, Nodes(first, FourNodes(nodes[k + 3u], nodes[k + 4u], nodes[k + 5u])), lost);
     }
     textureStore(table, id.xy, value);
 }

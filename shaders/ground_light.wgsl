@@ -3,13 +3,14 @@ import package::lib::aerial::aerial_to;
 import package::lib::air::Air;
 import package::lib::airglow::{Airglow, airglow_radiance};
 import package::lib::camera::{Camera, sight_at};
+import package::lib::cloud_air::{lost_before, lost_in_air, scattered_under_clouds};
 import package::lib::cloud_shade::{CloudShade, shade_depth, slab_transmission};
-import package::lib::geometry::{PI, altitude_after, angle_of_cosine, cosine_after, distance_to_sphere, distance_to_top};
+import package::lib::geometry::{PI, altitude_after, angle_of_cosine, cosine_after, distance_to_sphere, distance_to_top, edge_cosine, horizon_distance_squared, over_horizon};
 import package::lib::harmonics::irradiance_towards;
 import package::lib::light::{View, scattered_radiance};
 import package::lib::scattering::{AirRay, March, Scattered, scatter_along};
 import package::lib::seen_ground::{PackedGround, SeenGround, unpack_ground};
-import package::lib::shaft_lattice::{depth_weight, lattice_weight};
+import package::lib::shaft_lattice::{Lost, depth_weight, lattice_weight, lost_of};
 import package::lib::source::cosine_of_azimuth;
 import package::lib::tables::{SkyViewRay, light_from_table, sky_view_coordinate, sun_cosine_unit, unit_to_coordinate};
 import package::lib::transmittance::transmittance_to_space;
@@ -24,9 +25,9 @@ override HAZE: bool = true;
 override AIRGLOW: bool = true;
 override MOONLIGHT: bool = false;
 override CLOUDS: bool = false;
+// True where no shafts tell what the air loses to clouds.
+override CLOUD_AIR: bool = false;
 override SHAFTS: bool = false;
-// True where they are of all the light that clouds keep from the air, which then is not dimmed on average.
-override SHAFTED: bool = false;
 // True where the sphere is of water.
 override WATER: bool = false;
 // True where nobody follows a ray through the clouds before the ground: none are there.
@@ -83,11 +84,16 @@ struct CloudFrame {
 @group(0) @binding(19) var<storage, read> seen: array<PackedGround>;
 // Harmonics of the sky's light over the ground, of the sun's and then of the moon's.
 @group(0) @binding(20) var<storage, read> sky_harmonics: array<vec4f>;
-// Radiance in R, G, B and how far away it is; where nothing stands, what the sky loses to shafts, and -1.
+// Radiance in R, G, B and how far away it is; where nothing stands, what the sky loses to shafts, and -1 less the share of it
+// that is lost before the horizon.
 @group(0) @binding(21) var<storage, read_write> lit_ground: array<vec4f>;
 @group(0) @binding(22) var<uniform> settings: LightSettings;
-// Radiance in R, G, B, and how far away the ray ends; of the lattice, or of each direction.
-@group(0) @binding(23) var<storage, read> lost: array<vec4f>;
+// Of the lattice, or of each direction.
+@group(0) @binding(23) var<storage, read> lost: array<Lost>;
+// Of each pixel or direction, for those who look at what stands before it.
+@group(0) @binding(24) var<storage, read_write> lost_to_shafts: array<Lost>;
+// `LostInAir`.
+@group(0) @binding(25) var cloud_air_table: texture_2d_array<f32>;
 
 // Where on the ground light falls.
 struct Place {
@@ -205,8 +211,23 @@ fn under_clouds(light: Scattered, direction: vec3f, distance_m: f32) -> Scattere
     }
     let up_m = distance_to_top(air.radius_m, shade.base_m, view.altitude_m, dot(direction, view.up));
     let share = min(up_m / max(distance_m, 1.0), 1.0);
-    let single = mix(1.0, select(shade.direct_left, 1.0, SHAFTED), share);
-    return Scattered(single * light.rayleigh, single * light.mie, mix(1.0, shade.diffuse_left, share) * light.multiple, light.optical_depth);
+    return Scattered(light.rayleigh, light.mie, mix(1.0, shade.diffuse_left, share) * light.multiple, light.optical_depth);
+}
+
+// What the air up to the ground loses to clouds of the light that it scatters once, less what it gets of theirs.
+fn lost_under_clouds(direction: vec3f, distance_m: f32, light: Scattered) -> vec3f {
+    var lost = vec3f(0.0);
+    if CLOUD_AIR {
+        let in_air = lost_in_air(cloud_air_table, linear_clamp, direction, view.up, edge_cosine(air.radius_m, view.altitude_m));
+        let to_air_m = max(distance_to_sphere(air.radius_m + air.top_m, view.altitude_m - air.top_m, dot(direction, view.up)), 0.0);
+        let from_m = select(0.0, to_air_m, view.altitude_m > air.top_m);
+        let once = Scattered(light.rayleigh, light.mie, vec3f(0.0), light.optical_depth);
+        lost = lost_before(in_air, scattered_radiance(air, view, once, clamp(dot(direction, view.sun), -1.0, 1.0)), distance_m - from_m);
+    }
+    if DOME && view.altitude_m < shade.base_m {
+        lost -= scattered_under_clouds(air, view, shade, transmittance_table, linear_clamp, exp(-light.optical_depth));
+    }
+    return lost;
 }
 
 fn radiance_towards(direction: vec3f, found: SeenGround) -> vec3f {
@@ -219,6 +240,7 @@ fn radiance_towards(direction: vec3f, found: SeenGround) -> vec3f {
     let light = air_before(direction, found.distance_m);
     var seen_there = radiance_by(view, 0u, select(found.lit, 1.0, MOON_HIDDEN), found, place, direction, left);
     var between = scattered_radiance(air, view, under_clouds(light, direction, found.distance_m), nu);
+    between -= lost_under_clouds(direction, found.distance_m, light);
     if AIRGLOW {
         seen_there += found.ambient / PI * glow.ground_irradiance;
         between += airglow_radiance(glow, air.radius_m, view.altitude_m, mu, found.distance_m, light.optical_depth);
@@ -237,23 +259,45 @@ fn radiance_towards(direction: vec3f, found: SeenGround) -> vec3f {
 }
 
 // What a ray through a pixel of the frame loses to shafts.
-fn lost_at(pixel: vec2u, end_m: f32) -> vec3f {
+fn lost_at(pixel: vec2u, end_m: f32) -> Lost {
     // The lattice may begin left of the frame, where it wraps round.
     let place = vec2f(pixel - settings.first_place_px) / f32(settings.grain);
     let nearest = vec2i(round(place));
-    var sum = vec3f(0.0);
+    var sum: Lost;
+    var first = vec4f(0.0);
+    var second = vec4f(0.0);
     var weights = 0.0;
     for (var k = 0; k < 9; k++) {
         let at = nearest + vec2i(k % 3, k / 3) - 1;
         let there = lost[u32(at.y) * settings.places_across + u32(at.x)];
-        let weight = lattice_weight(place - vec2f(at)) * depth_weight(end_m, there.w);
-        sum += weight * there.rgb;
+        let weight = lattice_weight(place - vec2f(at)) * depth_weight(end_m, there.end_m);
+        sum.light += weight * there.light;
+        sum.from_m += weight * there.from_m;
+        sum.to_m += weight * there.to_m;
+        first += weight * unpack4x8unorm(there.first);
+        second += weight * unpack4x8unorm(there.second);
         weights += weight;
     }
-    return sum / max(weights, 1e-12);
+    let share = 1.0 / max(weights, 1e-12);
+    return Lost(share * sum.light, end_m, share * sum.from_m, share * sum.to_m, pack4x8unorm(share * first), pack4x8unorm(share * second));
 }
 
 const ENDLESS_M = 1e12;
+
+// Of what a ray loses that runs along the horizon, the share that is before it; elsewhere nobody asks.
+fn share_before_horizon(direction: vec3f, less: Lost) -> f32 {
+    let mu = dot(direction, view.up);
+    let horizon_mu = edge_cosine(air.radius_m, view.altitude_m);
+    var share = 0.0;
+    if abs(mu - horizon_mu) < camera.pixel_angle {
+        let edge_m = sqrt(horizon_distance_squared(air.radius_m, view.altitude_m));
+        var light = air_before(direction, edge_m);
+        light.multiple = vec3f(0.0);
+        let sent = scattered_radiance(air, view, light, clamp(dot(direction, view.sun), -1.0, 1.0));
+        share = dot(lost_of(less, sent, edge_m), vec3f(1.0)) / max(dot(less.light, vec3f(1.0)), 1e-30);
+    }
+    return share;
+}
 
 fn write(i: u32, direction: vec3f, pixel: vec2u) {
     let found = unpack_ground(seen[i]);
@@ -262,15 +306,21 @@ fn write(i: u32, direction: vec3f, pixel: vec2u) {
         value = vec4f(radiance_towards(direction, found), found.distance_m);
     }
     if SHAFTS {
-        let met_m = distance_to_sphere(air.radius_m, view.altitude_m, dot(direction, view.up));
+        // Where the horizon crosses a pixel, the sky in it is asked for; the ground loses what is before it.
+        let met_m = distance_to_sphere(air.radius_m, view.altitude_m, dot(over_horizon(direction, view.up, edge_cosine(air.radius_m, view.altitude_m), 0.5 * camera.pixel_angle), view.up));
         let end_m = select(select(ENDLESS_M, met_m, met_m >= 0.0), found.distance_m, found.distance_m >= 0.0);
-        var less: vec3f;
+        var less: Lost;
         if LIST {
-            less = lost[i].rgb;
+            less = lost[i];
         } else {
             less = lost_at(pixel, end_m);
         }
-        value = vec4f(select(less, max(value.rgb - less, vec3f(0.0)), found.distance_m >= 0.0), value.w);
+        lost_to_shafts[i] = less;
+        if found.distance_m >= 0.0 {
+            value = vec4f(max(value.rgb - less.light, vec3f(0.0)), found.distance_m);
+        } else {
+            value = vec4f(less.light, -1.0 - share_before_horizon(direction, less));
+        }
     }
     lit_ground[i] = value;
 }

@@ -1,8 +1,9 @@
 // Radiance, transmittance and distance at exact directions, integrated along each ray without the sky-view table.
 import package::lib::air::Air;
 import package::lib::airglow::{Airglow, airglow_radiance};
+import package::lib::cloud_air::{lost_before, lost_in_air};
 import package::lib::cloud_shade::{CloudShade, ground_shaded};
-import package::lib::geometry::{PI, angle_between, distance_to_sphere};
+import package::lib::geometry::{PI, angle_between, distance_to_sphere, edge_cosine};
 import package::lib::light::{UNSHADED, View, ground_radiance, scattered_radiance, sun_disc};
 import package::lib::moon::{Moon, moon_radiance, place_on_moon};
 import package::lib::scattering::{March, Scattered, scatter_along};
@@ -20,6 +21,8 @@ override MOON: bool = false;
 override MOONLIGHT: bool = false;
 // True where there are clouds.
 override CLOUDS: bool = false;
+// True where no shafts tell what the air loses to them.
+override CLOUD_AIR: bool = false;
 // True where more than the sphere stands on the ground.
 override GROUND: bool = false;
 
@@ -62,6 +65,8 @@ struct Answer {
 @group(0) @binding(17) var<uniform> cloud_frame: CloudFrame;
 // Of each direction: radiance and distance of what stands on the ground; or what the sky loses to shafts, and -1.
 @group(0) @binding(18) var<storage, read> lit_ground: array<vec4f>;
+// `LostInAir`.
+@group(0) @binding(19) var cloud_air_table: texture_2d_array<f32>;
 
 // A ray that nothing stops.
 const ENDLESS_M = 1e12;
@@ -100,6 +105,7 @@ fn probe(@builtin(global_invocation_id) id: vec3u) {
         light = scatter_along(air, entry, transmittance_table, source_table, linear_clamp, March(true, MULTIPLE, HAZE, NESTED, observer.steps, 4u, observer.sun_steps));
     }
     let transmittance = exp(-light.optical_depth);
+    var once = scattered_radiance(air, view, Scattered(light.rayleigh, light.mie, vec3f(0.0), light.optical_depth), nu);
     var between = scattered_radiance(air, view, light, nu)
         + airglow_radiance(glow, air.radius_m, view.altitude_m, mu, select(ENDLESS_M, ground_m, ground), light.optical_depth);
     var behind = directions[id.x].w * discs(direction);
@@ -119,11 +125,22 @@ fn probe(@builtin(global_invocation_id) id: vec3u) {
         if moonlit.length_m > 0.0 {
             let march = March(true, MULTIPLE, HAZE, NESTED, observer.steps, 4u, observer.sun_steps);
             let scattered = scatter_along(air, moonlit, transmittance_table, source_table, linear_clamp, march);
-            between += scattered_radiance(air, moon_view, scattered, nu_moon);
+            let moonlight = scattered_radiance(air, moon_view, scattered, nu_moon);
+            between += moonlight;
+            once += moonlight;
         }
         if ground {
             behind += ground_radiance(air, moon_view, nu_moon, ground_m, transmittance_table, irradiance_table, linear_clamp, shaded);
         }
+    }
+    if CLOUD_AIR {
+        var air_from_m = 0.0;
+        if view.altitude_m > air.top_m {
+            air_from_m = max(distance_to_sphere(air.radius_m + air.top_m, view.altitude_m - air.top_m, mu), 0.0);
+        }
+        let in_air = lost_in_air(cloud_air_table, linear_clamp, direction, view.up, edge_cosine(air.radius_m, view.altitude_m));
+        // Down to the ground ways differ by more than the table knows.
+        between -= select(in_air.light, lost_before(in_air, once, ground_m - air_from_m), ground);
     }
     var radiance = between + transmittance * behind;
     if GROUND {

@@ -10,6 +10,8 @@ import package::lib::ground_light::{SHADOW, shadow, sun_in_air};
 import package::lib::light::View;
 import package::lib::phase::{cornette_shanks_phase, rayleigh_phase};
 import package::lib::seen_ground::PackedGround;
+import package::lib::shaft_lattice::Lost;
+import package::lib::shaft_ray::{LostSum, with_step};
 import package::lib::transmittance::transmittance_to_space;
 
 override PROJECTION: u32 = 0u;
@@ -56,8 +58,7 @@ struct Shafts {
 @group(0) @binding(12) var<uniform> settings: Shafts;
 @group(0) @binding(13) var<storage, read> directions: array<vec4f>;
 @group(0) @binding(14) var<storage, read> seen: array<PackedGround>;
-// Radiance in R, G, B, and how far away the ray ends.
-@group(0) @binding(15) var<storage, read_write> lost: array<vec4f>;
+@group(0) @binding(15) var<storage, read_write> lost: array<Lost>;
 // Six vectors a place, as `Nodes` has them.
 @group(0) @binding(16) var<storage, read> clouds_seen: array<vec4f>;
 
@@ -98,7 +99,7 @@ fn hidden_share(p: vec3f, altitude_m: f32, mu: f32) -> f32 {
 const EVEN_STEPS = 12u;
 
 // ∫ (1 - V) T σ_s p T_light dt, by the middles of steps that grow with the square, all moved by the same share of a step.
-fn lost_along(direction: vec3f, end_m: f32, jitter: f32, smeared: f32) -> vec3f {
+fn lost_along(direction: vec3f, end_m: f32, jitter: f32, smeared: f32) -> Lost {
     let mu = clamp(dot(direction, view.up), -1.0, 1.0);
     let nu = clamp(dot(direction, view.sun), -1.0, 1.0);
     let h0 = view.altitude_m;
@@ -118,20 +119,18 @@ fn lost_along(direction: vec3f, end_m: f32, jitter: f32, smeared: f32) -> vec3f 
     let first_m = max(in_air.x, 0.0);
     let from_m = max(reach.x, first_m);
     let to_m = min(min(reach.y, end_m), min(in_air.y, from_m + FARTHEST_M));
-    var sum = vec3f(0.0);
+    var sum: LostSum;
     if to_m > from_m {
-        // What the air lets through before the first step.
-        var left = vec3f(1.0);
+        sum.left = vec3f(1.0);
         if from_m > first_m {
             var depth = vec3f(0.0);
             for (var k = 0u; k < 8u; k++) {
                 let h = altitude_after(air.radius_m, h0, mu, mix(first_m, from_m, (f32(k) + 0.5) / 8.0));
                 depth += coefficients_at(air, h, h < air.haze_top_m).extinction_per_m;
             }
-            left = exp(-depth * (from_m - first_m) / 8.0);
+            sum.left = exp(-depth * (from_m - first_m) / 8.0);
         }
-        let rayleigh = rayleigh_phase(nu);
-        let mie = cornette_shanks_phase(nu, air.mie_asymmetry);
+        let phases = vec2f(rayleigh_phase(nu), cornette_shanks_phase(nu, air.mie_asymmetry));
         let steps = select(settings.steps, EVEN_STEPS, RADIAL);
         for (var k = 0u; k < steps; k++) {
             let near = f32(k) / f32(steps);
@@ -145,17 +144,11 @@ fn lost_along(direction: vec3f, end_m: f32, jitter: f32, smeared: f32) -> vec3f 
             if !RADIAL {
                 hidden = hidden_share(cloud_frame.place_m + t * direction, h, mu_light);
             }
-            let c = coefficients_at(air, h, h < air.haze_top_m);
-            let passed = exp(-c.extinction_per_m * dt);
-            if hidden > 0.0 {
-                let light = transmittance_to_space(air, transmittance_table, linear_clamp, h, mu_light);
-                let mean = left * 0.5 * (1.0 + passed);
-                sum += hidden * dt * mean * light * (rayleigh * c.rayleigh_per_m + mie * c.mie_per_m);
-            }
-            left *= passed;
+            let lit = transmittance_to_space(air, transmittance_table, linear_clamp, h, mu_light);
+            sum = with_step(sum, air, h, phases, lit, hidden, dt, far);
         }
     }
-    return view.sun_irradiance * sum;
+    return Lost(view.sun_irradiance * sum.lost, end_m, from_m, to_m, pack4x8unorm(sum.first), pack4x8unorm(sum.second));
 }
 
 // Interleaved gradient noise (Jimenez 2014): even over every 3×3 places.
@@ -171,8 +164,7 @@ fn end_of(direction: vec3f, seen_m: f32) -> f32 {
 }
 
 fn look(i: u32, direction: vec3f, seen_m: f32, jitter: f32, smeared: f32) {
-    let end_m = end_of(direction, seen_m);
-    lost[i] = vec4f(lost_along(direction, end_m, jitter, smeared), end_m);
+    lost[i] = lost_along(direction, end_of(direction, seen_m), jitter, smeared);
 }
 
 // Of the picture between a place of the lattice and the source's image, the share that something stands or hangs before,
@@ -225,6 +217,6 @@ fn shafts(@builtin(global_invocation_id) id: vec3u) {
         }
         look(i, sight.direction, seen[i].distance_m, jitter, smeared);
     } else {
-        lost[i] = vec4f(0.0, 0.0, 0.0, ENDLESS_M);
+        lost[i] = Lost(vec3f(0.0), ENDLESS_M, 0.0, 0.0, 0u, 0u);
     }
 }

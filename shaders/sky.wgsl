@@ -57,7 +57,8 @@ struct Tile {
 // Where each block of the dome is kept, and what is seen of clouds at their corners.
 @group(0) @binding(26) var<storage, read> dome_pages: array<u32>;
 @group(0) @binding(27) var dome_seen: texture_2d<f32>;
-// Of each pixel of the tile: radiance and distance of what stands on the ground; or what the sky loses to shafts, and -1.
+// Of each pixel of the tile: radiance and distance of what stands on the ground; or what the sky loses to shafts, and -1
+// less the share of it that is lost before the horizon.
 @group(0) @binding(28) var<storage, read> lit_ground: array<vec4f>;
 // Six vectors a corner of the dome, as `Nodes` has them.
 @group(0) @binding(29) var<storage, read> dome_nodes: array<vec4f>;
@@ -113,7 +114,7 @@ fn with_clouds(behind: vec3f, place: vec2u, direction: vec3f) -> vec3f {
 }
 
 // A pixel that the horizon crosses, seen from under the clouds: they stand before the sky's share of it alone.
-fn on_horizon(direction: vec3f, above: f32, disc: vec3f, lost: vec3f, place: vec2u) -> vec3f {
+fn on_horizon(direction: vec3f, above: f32, disc: vec3f, lost: vec3f, lost_to_ground: vec3f, place: vec2u) -> vec3f {
     let off = edge_cosine(air.radius_m, view.altitude_m) - dot(direction, view.up);
     let sky = normalize(direction + (off + 0.6 * camera.pixel_angle) * view.up);
     let ground = normalize(direction + (off - 0.6 * camera.pixel_angle) * view.up);
@@ -121,7 +122,7 @@ fn on_horizon(direction: vec3f, above: f32, disc: vec3f, lost: vec3f, place: vec
     let ground_nu = clamp(dot(ground, view.sun), -1.0, 1.0);
     let behind = max(radiance_of(light_towards(sky, dot(sky, view.up), sky_nu), sky_nu, disc) - lost, vec3f(0.0));
     let clear = radiance_of(light_towards(ground, dot(ground, view.up), ground_nu), ground_nu, vec3f(0.0));
-    var below = max(clear - lost, vec3f(0.0));
+    var below = max(clear - lost_to_ground, vec3f(0.0));
     if DOME {
         below = with_clouds(below, place, ground);
     }
@@ -199,7 +200,7 @@ fn write_run(first: vec2u, begin: u32, end: u32) {
             var seen: vec3f;
             let above = share_above(angle_of_cosine(dot(sight.direction, view.up)));
             if CLOUDS && above > 0.0 && above < 1.0 && view.altitude_m < shade.base_m {
-                seen = on_horizon(sight.direction, above, own, lost, vec2u(x, y));
+                seen = on_horizon(sight.direction, above, own, lost, (-1.0 - before.w) * lost, vec2u(x, y));
             } else {
                 seen = with_clouds(max(radiance_of(light, nu, own) - lost, vec3f(0.0)), vec2u(x, y), sight.direction);
             }

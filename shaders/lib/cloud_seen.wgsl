@@ -1,12 +1,21 @@
-// The light of the clouds that a ray sees. Whoever imports from here binds what `lib/cloud_on_ground.wgsl` names.
+// The light of the clouds that a ray sees. Whoever imports from here binds what `lib/cloud_on_ground.wgsl` names, and then
+// this.
 import package::lib::cloud::{clouds, sheet_optical_depth};
+import package::lib::cloud_air::{LostInAir, lost_before, lost_in_air};
 import package::lib::cloud_light::forward_lobes;
 import package::lib::cloud_march::{FIRST_SHEET, OPAQUE};
 import package::lib::cloud_nodes::{NODES, Nodes};
 import package::lib::cloud_on_ground::lit_past_ground;
-import package::lib::cloud_ray::{COARSEST_PIXEL, CloudRay, place_at, view};
-import package::lib::cloud_source::{AirBefore, Surroundings, air_before, sheet_source, source_at, surroundings, unlit_air};
-import package::lib::geometry::altitude_after;
+import package::lib::cloud_ray::{COARSEST_PIXEL, CloudRay, air, place_at, view};
+import package::lib::cloud_source::{AirBefore, Surroundings, air_before, air_under_clouds, linear_clamp, sheet_source, source_at, surroundings};
+import package::lib::geometry::{altitude_after, edge_cosine};
+import package::lib::shaft_lattice::{Lost, lost_of};
+
+// True where no shafts tell what the air loses to clouds.
+override CLOUD_AIR: bool = true;
+
+// `LostInAir`.
+@group(0) @binding(20) var cloud_air_table: texture_2d_array<f32>;
 
 // What lights a place, and the air before it, serve for others that are no farther from it than this part of the way.
 const NEAR = 0.05;
@@ -15,13 +24,22 @@ fn dimmed(around: Surroundings, lit: f32) -> Surroundings {
     return Surroundings(lit * around.sun, around.above, around.below, around.mu_s);
 }
 
-// Radiance to add in R, G, B; alpha is the share of what lies behind that comes through.
-fn clouds_seen(ray: CloudRay, nodes: Nodes) -> vec4f {
+// Radiance to add in R, G, B; alpha is the share of what lies behind that comes through. `lost` is what the ray loses to
+// shafts: the part of it that is before a cloud is not hidden by that.
+fn clouds_seen(ray: CloudRay, nodes: Nodes, lost: Lost) -> vec4f {
     let lobes = forward_lobes(ray.nu);
     var light = vec3f(0.0);
     var around: Surroundings;
     var before: AirBefore;
     var around_m = -1.0;
+    var lost_from = vec3f(0.0);
+    if lost.from_m > 0.0 {
+        lost_from = air_before(ray, lost.from_m).single;
+    }
+    var in_air: LostInAir;
+    if CLOUD_AIR {
+        in_air = lost_in_air(cloud_air_table, linear_clamp, ray.direction, view.up, edge_cosine(air.radius_m, view.altitude_m));
+    }
     for (var n = 0u; n < NODES; n++) {
         var four = nodes.first;
         if n >= 4u {
@@ -49,10 +67,14 @@ fn clouds_seen(ray: CloudRay, nodes: Nodes) -> vec4f {
                 let sheet = clouds.sheets[index - FIRST_SHEET];
                 source = sheet_source(index - FIRST_SHEET, p, sheet_optical_depth(sheet, p, sheet.height_m), dimmed(surroundings(p, sheet.height_m), lit), lobes);
             }
-            light += four.share[k] * (before.left * source + before.single + before.multiple);
+            var hidden = lost_of(lost, before.single - lost_from, distance_m);
+            if CLOUD_AIR {
+                hidden = min(hidden + lost_before(in_air, before.single, distance_m - ray.air_from_m), before.single);
+            }
+            light += four.share[k] * (before.left * source + before.single + before.multiple - hidden);
         }
     }
     // What is left of an opaque cloud is nothing.
     let left = 1.0 - dot(nodes.first.share + nodes.second.share, vec4f(1.0));
-    return vec4f(light - unlit_air(ray), select(left, 0.0, left < 1.001 * OPAQUE));
+    return vec4f(light + air_under_clouds(ray), select(left, 0.0, left < 1.001 * OPAQUE));
 }

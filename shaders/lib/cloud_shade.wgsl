@@ -21,6 +21,8 @@ struct CloudShade {
     base_m: f32,
     // Optical depth of all of them towards the light, on average.
     even_depth: f32,
+    // Share of the light that on average leaves them below, scattered.
+    spread_left: f32,
 }
 
 // Texels stand closer by the square towards the centre.

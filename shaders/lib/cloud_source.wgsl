@@ -1,6 +1,7 @@
 // The light of a place in the clouds, and the air before it. Whoever imports from here binds what `lib/cloud_ray.wgsl` names,
 // and then this.
 import package::lib::aerial::aerial_to;
+import package::lib::cloud_air::scattered_under_clouds;
 import package::lib::cloud::{COARSE, CloudBand, band_at, band_extinction, clouds};
 import package::lib::cloud_far::BLURRED;
 import package::lib::cloud_light::{Lobes, ambient_source, lit_source};
@@ -71,10 +72,11 @@ fn surroundings(p: vec3f, altitude_m: f32) -> Surroundings {
     let on_ground = max(mu_s, 0.0) * transmittance_to_space(air, transmittance_table, linear_clamp, 0.0, mu_s);
     let here = transmittance_to_space(air, transmittance_table, linear_clamp, altitude_m, mu_s);
     let above = exp(-altitude_m / AIR_SCALE_M);
-    let ground = air.ground_albedo * (shade.diffuse_left * (on_ground + sky));
+    // What clouds leave lights the ground and the air beneath them alike.
+    let beneath = shade.diffuse_left * (air.ground_albedo * (on_ground + sky) + sky * (1.0 - above));
     let even = clouds.ambient_factor * view.sun_irradiance;
     let sun = clouds.sun_factor * clouds.sun_colour * view.sun_irradiance * here;
-    return Surroundings(sun, even * sky * above, even * (ground + sky * (1.0 - above)), mu_s);
+    return Surroundings(sun, even * sky * above, even * beneath, mu_s);
 }
 
 // With so many steps the light's way is followed to its ends.
@@ -82,9 +84,10 @@ const ALL_LIGHT_STEPS = 64u;
 // With fewer, over this share of the shape noise's scale. Within it density changes faster than the maps can hold, which
 // stand in texels and at eight heights.
 const REACH = 0.5;
-// A preview reads the maps alone while the sun is high. Under a low one light runs many kilometres from one of their heights
-// to the next, and these would stand as stripes on the clouds: from the second cosine down it is followed, over a way that
-// grows until the first.
+// A preview takes one step each way, over that share of it, while the sun is high: what is seen of a cloud is denser than its
+// column is on average. Under a low sun light runs many kilometres from one of the maps' heights to the next, and these would
+// stand as stripes on the clouds: from the second cosine down more of the way is followed, until the first.
+const CLOSE_BY = 0.2;
 const LOW_LIGHT = vec2f(0.05, 0.25);
 const LOW_LIGHT_STEPS = 3u;
 
@@ -115,13 +118,13 @@ fn source_at(index: u32, p: vec3f, altitude_m: f32, extinction_per_m: f32, aroun
     var way: LightDepth;
     let low = 1.0 - smoothstep(LOW_LIGHT.x, LOW_LIGHT.y, abs(mu_s));
     let preview = clouds.light_steps == 0u;
-    let near_steps = select(clouds.light_steps, LOW_LIGHT_STEPS, preview && low > 0.0);
+    let near_steps = select(clouds.light_steps, select(1u, LOW_LIGHT_STEPS, low > 0.0), preview);
     // The light of heaps that are finer than a pixel is that of their mean.
     let steps = select(near_steps, 0u, pixel_m * clouds.base_inverse_scale_per_m > BLURRED.y);
     if steps == 0u {
         way = light_depth(index, band, p, altitude_m, mu_s);
     } else {
-        let close_m = select(1.0, low, preview) * REACH / clouds.base_inverse_scale_per_m;
+        let close_m = select(1.0, mix(CLOSE_BY, 1.0, low), preview) * REACH / clouds.base_inverse_scale_per_m;
         way.before = depth_beside(index, band, p, altitude_m, mu_s, 1.0, steps, close_m);
         way.behind = depth_beside(index, band, p, altitude_m, mu_s, -1.0, steps, close_m);
     }
@@ -161,12 +164,13 @@ fn sheet_source(index: u32, p: vec3f, depth: f32, around: Surroundings, lobes: L
     return clouds.albedo * (direct + even);
 }
 
-// Under the clouds the air gets what they let through, on average: this is the light of clear air less that.
-fn unlit_air(ray: CloudRay) -> vec3f {
+// Under the clouds the air gets what they let through, on average: this is what that adds to the light of clear air that is
+// scattered more than once, or takes from it.
+fn air_under_clouds(ray: CloudRay) -> vec3f {
     if view.altitude_m >= shade.base_m {
         return vec3f(0.0);
     }
     let up_m = distance_to_top(clouds.radius_m, shade.base_m, view.altitude_m, ray.mu);
     let under = air_before(ray, min(up_m, ray.stop_m));
-    return (1.0 - shade.direct_left) * under.single + (1.0 - shade.diffuse_left) * under.multiple;
+    return scattered_under_clouds(air, view, shade, transmittance_table, linear_clamp, under.left) - (1.0 - shade.diffuse_left) * under.multiple;
 }

@@ -6,6 +6,7 @@ import package::lib::geometry::{
     PI, angle_if_near, angle_of_cosine, distance_to_sphere, edge_cosine, edge_zenith_angle, horizon_distance_squared,
 };
 import package::lib::phase::{cornette_shanks_phase, rayleigh_phase};
+import package::lib::cloud_air::{LostInAir, lost_before, lost_in_air};
 import package::lib::cloud_shade::{CloudShade, ground_shaded};
 import package::lib::light::{UNSHADED, View, disc_radiance, ground_radiance, scattered_radiance};
 import package::lib::moon::{Moon, corona, moon_radiance, place_on_moon};
@@ -30,8 +31,9 @@ override PROJECTION: u32 = 0u;
 override AIRGLOW: bool = true;
 override MOON: bool = false;
 override MOONLIGHT: bool = false;
-// True where there are clouds.
+// True where there are clouds, and where no shafts tell what the air loses to them.
 override CLOUDS: bool = false;
+override CLOUD_AIR: bool = false;
 
 // What the ground's shadows need to know of the clouds.
 struct CloudFrame {
@@ -60,6 +62,8 @@ struct CloudFrame {
 @group(0) @binding(20) var<uniform> shade: CloudShade;
 @group(0) @binding(21) var shade_maps: texture_2d_array<f32>;
 @group(0) @binding(22) var<uniform> cloud_frame: CloudFrame;
+// `LostInAir`.
+@group(0) @binding(30) var cloud_air_table: texture_2d_array<f32>;
 
 fn light_in_air(ray: SkyViewRay, mu: f32, nu: f32) -> Scattered {
     if METHOD != 0u {
@@ -191,6 +195,14 @@ fn light_towards(direction: vec3f, mu: f32, nu: f32) -> Light {
     let above = share_above(zenith_angle);
     let met_m = distance_to_sphere(air.radius_m, view.altitude_m, mu);
     let edge_m = sqrt(horizon_distance_squared(air.radius_m, view.altitude_m));
+    var in_air: LostInAir;
+    var air_from_m = 0.0;
+    if CLOUD_AIR {
+        in_air = lost_in_air(cloud_air_table, linear_clamp, direction, view.up, edge_cosine(air.radius_m, view.altitude_m));
+        if view.altitude_m > air.top_m {
+            air_from_m = max(distance_to_sphere(air.radius_m + air.top_m, view.altitude_m - air.top_m, mu), 0.0);
+        }
+    }
     // One side of the horizon, and where the pixel lies on it the other as well: a loop, since a software device runs
     // both sides of a branch.
     var sum: Light;
@@ -207,8 +219,15 @@ fn light_towards(direction: vec3f, mu: f32, nu: f32) -> Light {
         if ground || ray_angle >= least_zenith_angle(air.radius_m, air.top_m, view.altitude_m) {
             light = light_in_air(SkyViewRay(azimuth, ray_angle, ground, distance_m), ray_mu, nu);
             even = view.sun_irradiance * light.multiple;
+            var once = single_of(light.rayleigh, light.mie, nu);
             if MOONLIGHT {
-                even += moonlight_in_air(direction, mu, ray_angle, ground, distance_m);
+                let moonlight = moonlight_in_air(direction, mu, ray_angle, ground, distance_m);
+                even += moonlight;
+                once += moonlight;
+            }
+            if CLOUD_AIR {
+                // Down to the ground ways differ by more than the table knows.
+                even -= select(in_air.light, lost_before(in_air, once, distance_m - air_from_m), ground);
             }
         }
         let left = exp(-light.optical_depth);
@@ -240,7 +259,10 @@ fn light_towards(direction: vec3f, mu: f32, nu: f32) -> Light {
     return sum;
 }
 
+fn single_of(rayleigh: vec3f, mie: vec3f, nu: f32) -> vec3f {
+    return view.sun_irradiance * (rayleigh_phase(nu) * rayleigh + cornette_shanks_phase(nu, air.mie_asymmetry) * mie);
+}
+
 fn radiance_of(light: Light, nu: f32, disc: vec3f) -> vec3f {
-    let single = rayleigh_phase(nu) * light.rayleigh + cornette_shanks_phase(nu, air.mie_asymmetry) * light.mie;
-    return view.sun_irradiance * single + light.even + light.left * disc;
+    return single_of(light.rayleigh, light.mie, nu) + light.even + light.left * disc;
 }

@@ -19,8 +19,20 @@ const SHEET_SCALE_M: [f64; 3] = [60_000.0, 24_000.0, 90_000.0];
 const SECOND_LOOK: [f64; 2] = [0.2867, 0.1513];
 /// Half the side of the shadows' maps, metres.
 const SHADE_REACH_M: f64 = 120_000.0;
-/// Of a volume layer's optical depth, what a column of it has on average where there is cloud.
-const MEAN_FILLING: f64 = 0.2;
+/// Of a volume layer's optical depth, what a column of it has on average where there is cloud: of heaps, and of a closed deck,
+/// whose noise is never under a half.
+const MEAN_FILLING: [f64; 2] = [0.2, 0.45];
+
+/// As the shader closes a deck: 0 up to a coverage of 0.85, 1 where all is covered.
+fn closed(coverage: f64) -> f64 {
+    let x = ((coverage - 0.85) / 0.15).clamp(0.0, 1.0);
+    x * x * (3.0 - 2.0 * x)
+}
+
+fn mean_filling(coverage: f64) -> f64 {
+    let [heaps, deck] = MEAN_FILLING;
+    heaps + (deck - heaps) * closed(coverage)
+}
 
 /// `RIM` of `lib/cloud.wgsl`.
 const RIM: f64 = 0.5;
@@ -33,8 +45,7 @@ fn lost(cloud_type: Option<f64>) -> f64 {
 /// How far a layer is heaps, which lose light at their sides, and not a deck: all of it from cumulus on, whose type is 0.8.
 fn leak(cloud_type: Option<f64>, coverage: f64) -> f32 {
     let heaped = cloud_type.map_or(0.65, |t| ((t - 0.5) / 0.3).clamp(0.0, 1.0));
-    let x = ((coverage - 0.85) / 0.15).clamp(0.0, 1.0);
-    narrow(heaped * (1.0 - x * x * (3.0 - 2.0 * x)))
+    narrow(heaped * (1.0 - closed(coverage)))
 }
 
 /// The coverage that the threshold needs for clouds to cover that share of the sky. The range of the weather over which
@@ -248,7 +259,12 @@ impl<'a> CloudSky<'a> {
         let columns = self
             .volumes
             .iter()
-            .map(|(v, coverage, extinction)| (*coverage, MEAN_FILLING * extinction * (v.top_m - v.base_m)))
+            .map(|(v, coverage, extinction)| {
+                (
+                    *coverage,
+                    mean_filling(*coverage) * extinction * (v.top_m - v.base_m),
+                )
+            })
             .chain(self.sheets.iter().map(|(sheet, coverage)| {
                 (
                     *coverage,
@@ -286,6 +302,7 @@ impl<'a> CloudSky<'a> {
             asymmetry: narrow(asymmetry),
             base_m: narrow(base_m),
             even_depth: narrow(-direct.max(1e-9).ln()),
+            spread_left: narrow((diffuse - direct).max(0.0)),
         }
     }
 

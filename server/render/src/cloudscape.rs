@@ -16,6 +16,7 @@ use crate::{
     passes::{
         Table,
         aerial::{Aerial, AerialVolumes},
+        cloud_air::{CloudAir, CloudAirInputs},
         cloud_shadow::CloudShadow,
         cloud_shape::ShapeFrequencies,
         ground_shadow::ShadowMap,
@@ -30,7 +31,6 @@ use crate::{
         narrow,
     },
 };
-use glam::Vec3;
 use std::sync::Arc;
 use welkin_scene::{
     Quality,
@@ -44,6 +44,7 @@ pub(crate) struct CloudPasses {
     noise: CloudNoise,
     pub(crate) aerial: Aerial,
     shadow: CloudShadow,
+    cloud_air: CloudAir,
     pub(crate) dome: CloudDomes,
     pictures: Memo<Table>,
 }
@@ -61,12 +62,13 @@ pub(crate) struct Cloudscape {
     multi_scattering: Arc<MultiScattering>,
     pub(crate) aerial: Arc<AerialVolumes>,
     pub(crate) shadow: Arc<Table>,
+    /// What the air loses to clouds, where no shafts tell it.
+    cloud_air: Option<Arc<Table>>,
     /// Of what stands on the ground, where that may fall on them.
     ground_shadow: Option<Arc<ShadowMap>>,
     /// Altitude of the lowest.
     pub(crate) base_m: f32,
-    place_m: Vec3,
-    light: Vec3,
+    frame: CloudFrameUniform,
     /// Whether the observer is under all of them.
     pub(crate) under_clouds: bool,
     one_layer: (&'static str, f64),
@@ -125,8 +127,20 @@ impl Cloudscape {
             Bind::Table(&self.shadow.view),
             Bind::Buffer(&parts.ground_shadow.0),
             Bind::Buffer(&parts.ground_shadow.1),
+            Bind::Table(self.cloud_air_view()),
         ]);
         binds
+    }
+
+    /// The table, or something in its place.
+    pub(crate) fn cloud_air_view(&self) -> &wgpu::TextureView {
+        let table = self.cloud_air.as_ref();
+        table.map_or(&self.multi_scattering.source.view, |table| &table.view)
+    }
+
+    /// The shaders' constant that is 1 where there is one.
+    pub(crate) fn cloud_air(&self) -> (&'static str, f64) {
+        ("CLOUD_AIR", f64::from(u8::from(self.cloud_air.is_some())))
     }
 
     /// What spares the shaders the search for the layer.
@@ -135,17 +149,14 @@ impl Cloudscape {
     }
 
     /// What the shaders that find the clouds' light are made for.
-    pub(crate) fn light_constants(&self) -> [(&'static str, f64); 2] {
+    pub(crate) fn light_constants(&self) -> [(&'static str, f64); 3] {
         let shaded = f64::from(u8::from(self.ground_shadow.is_some()));
-        [self.one_layer, ("SHADED", shaded)]
+        [self.one_layer, ("SHADED", shaded), self.cloud_air()]
     }
 
     /// What the ground's shadows need.
     pub(crate) const fn frame(&self) -> CloudFrameUniform {
-        CloudFrameUniform {
-            place_m: self.place_m,
-            light: self.light,
-        }
+        self.frame
     }
 
     /// Of what stands where, whatever lights it.
@@ -230,6 +241,7 @@ impl CloudPasses {
             noise: CloudNoise::new(disk_cache),
             aerial: Aerial::new(),
             shadow: CloudShadow::new(),
+            cloud_air: CloudAir::new(),
             dome: CloudDomes::new(),
             pictures: Memo::new(4),
         }
@@ -305,10 +317,7 @@ impl CloudPasses {
     ) -> Cloudscape {
         let scene = sky.scene;
         let clouds = Part::new(&sky.uniform(fineness(quality)));
-        let mut shade = sky.shade(&light.stand, scene.camera.position_m);
-        if light.shafted {
-            shade.direct_left = 1.0;
-        }
+        let shade = sky.shade(&light.stand, scene.camera.position_m);
         let base_m = shade.base_m;
         let under_clouds = light.stand.altitude_m < f64::from(shade.base_m);
         let shade = Part::new(&shade);
@@ -331,6 +340,21 @@ impl CloudPasses {
             (sky.shade_count(), sky.one_layer()),
             quality,
         );
+        let frame = CloudFrameUniform {
+            place_m: crate::uniforms::narrow3(scene.camera.position_m),
+            light: light.stand.sun.as_vec3(),
+        };
+        let cloud_air = (!light.shafted).then(|| {
+            let inputs = CloudAirInputs {
+                air: &tables.air,
+                view: light.view,
+                transmittance: &tables.transmittance,
+                shade: &shade,
+                shadow: &shadow,
+                frame: &Part::new(&frame),
+            };
+            self.cloud_air.run(recorder, &inputs)
+        });
         let ground_shadow = ground.and_then(|ground| ground.shadow_on_clouds(base_m, &light.stand));
         let observer = Part::new(&light.stand.observer(tables.plan.pixel_steps()));
         let made_from = Fingerprint::of((
@@ -343,6 +367,7 @@ impl CloudPasses {
             ),
             (aerial.made_from, shadow.made_from),
             ground_shadow.as_ref().map(|map| map.made_from),
+            cloud_air.is_some(),
         ));
         Cloudscape {
             clouds,
@@ -355,10 +380,10 @@ impl CloudPasses {
             multi_scattering: Arc::clone(&tables.multi_scattering),
             aerial,
             shadow,
+            cloud_air,
             ground_shadow,
             base_m,
-            place_m: crate::uniforms::narrow3(scene.camera.position_m),
-            light: light.stand.sun.as_vec3(),
+            frame,
             under_clouds,
             one_layer: sky.one_layer(),
             made_from,

@@ -186,7 +186,9 @@ impl Engine {
                 }
             });
             let clouded = cloud_sky.is_some();
-            let shafted = exact_shafts(scene, clouded, order.quality).is_some();
+            // A preview's clouds dim all air alike.
+            let shafted =
+                order.quality == Quality::Final && exact_shafts(scene, clouded, order.quality).is_some();
             let light = CloudLight::new(&tables.stand, &night, &lights, (clouded, shafted));
             let moon_stand = night
                 .moon

@@ -10,7 +10,7 @@ use crate::{
     passes::{
         aerial::{Aerial, AerialVolumes},
         cloud_view::CloudView,
-        ground_light::{GroundLight, LightInputs},
+        ground_light::{GroundLight, LightInputs, LitGround},
         ground_shadow::{GroundShadow, ShadowMap},
         ground_sky::GroundSky,
         ground_view::{GroundView, Looks},
@@ -252,14 +252,13 @@ impl GroundTiles {
         }
     }
 
-    /// Radiance and distance, four floats a pixel or direction.
     pub(crate) fn run(
         &mut self,
         recorder: &mut Recorder<'_>,
         scape: &Groundscape,
         inputs: LightInputs<'_>,
         looks: Looks<'_>,
-    ) -> wgpu::Buffer {
+    ) -> LitGround {
         let seen = self.view.run(recorder, scape, looks);
         let lost = scape.shafts.as_ref().map(|settings| match looks {
             Looks::Tile(camera, projection, tile, frame_px) => {

@@ -1,5 +1,6 @@
 //! The clouds at exact directions.
 
+use super::{ground_light::LitGround, shafts::LOST_BYTES};
 use crate::{
     cloudscape::Cloudscape,
     kernel::{Bind, Recorder, Variants},
@@ -25,23 +26,28 @@ impl CloudProbe {
         scape: &Cloudscape,
         directions: &wgpu::Buffer,
         count: u32,
-        lit_ground: Option<&wgpu::Buffer>,
+        ground: Option<&LitGround>,
     ) -> wgpu::Buffer {
         let gpu = recorder.gpu;
         let usage = wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_SRC;
         let answers = gpu.buffer("clouds seen", 16 * u64::from(count), usage);
-        let nothing = gpu.buffer("unused", 16, wgpu::BufferUsages::STORAGE);
+        let nothing = gpu.buffer("unused", LOST_BYTES, wgpu::BufferUsages::STORAGE);
+        let lost = ground.and_then(|ground| ground.lost.as_ref());
         let parts = scape.upload(gpu);
         let mut binds = scape.binds(&parts);
         binds.extend([
             Bind::Buffer(directions),
             Bind::Buffer(&parts.observer),
             Bind::Buffer(&answers),
-            Bind::Buffer(lit_ground.unwrap_or(&nothing)),
+            Bind::Buffer(ground.map_or(&nothing, |ground| &ground.light)),
+            Bind::Buffer(lost.unwrap_or(&nothing)),
         ]);
-        let ground = ("GROUND", f64::from(u8::from(lit_ground.is_some())));
-        let [layers, shaded] = scape.light_constants();
-        let kernel = self.kernels.get(gpu, &[layers, shaded, ground]);
+        let mut constants = scape.light_constants().to_vec();
+        constants.extend([
+            ("GROUND", f64::from(u8::from(ground.is_some()))),
+            ("SHAFTS", f64::from(u8::from(lost.is_some()))),
+        ]);
+        let kernel = self.kernels.get(gpu, &constants);
         recorder.dispatch(kernel, &binds, [count, 1, 1]);
         answers
     }

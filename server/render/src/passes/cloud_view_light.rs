@@ -3,6 +3,8 @@
 use super::{
     Table,
     cloud_view::{ViewNodes, whole_frame},
+    ground_light::LitGround,
+    shafts::LOST_BYTES,
 };
 use crate::{
     cloudscape::Cloudscape,
@@ -32,7 +34,7 @@ impl CloudViewLight {
         scape: &Cloudscape,
         (camera, projection): (&Part, u32),
         (tile, frame_px): (TileUniform, UVec2),
-        (nodes, lit_ground): (&ViewNodes, Option<&wgpu::Buffer>),
+        (nodes, ground): (&ViewNodes, Option<&LitGround>),
     ) -> Table {
         let gpu = recorder.gpu;
         let size_px = tile.size_px;
@@ -45,7 +47,8 @@ impl CloudViewLight {
         let parts = scape.upload(gpu);
         let place = Part::new(&tile);
         let (camera, place) = (camera.upload(gpu, "camera"), place.upload(gpu, "tile"));
-        let nothing = gpu.buffer("unused", 16, wgpu::BufferUsages::STORAGE);
+        let nothing = gpu.buffer("unused", LOST_BYTES, wgpu::BufferUsages::STORAGE);
+        let lost = ground.and_then(|ground| ground.lost.as_ref());
         let mut binds = scape.binds(&parts);
         binds.extend([
             Bind::Buffer(&camera),
@@ -53,16 +56,16 @@ impl CloudViewLight {
             Bind::Buffer(&parts.observer),
             Bind::Buffer(&nodes.buffer),
             Bind::Table(&view),
-            Bind::Buffer(lit_ground.unwrap_or(&nothing)),
+            Bind::Buffer(ground.map_or(&nothing, |ground| &ground.light)),
+            Bind::Buffer(lost.unwrap_or(&nothing)),
         ]);
-        let [layers, shaded] = scape.light_constants();
-        let constants = [
-            layers,
-            shaded,
+        let mut constants = scape.light_constants().to_vec();
+        constants.extend([
             whole_frame(frame_px),
             ("PROJECTION", f64::from(projection)),
-            ("GROUND", f64::from(u8::from(lit_ground.is_some()))),
-        ];
+            ("GROUND", f64::from(u8::from(ground.is_some()))),
+            ("SHAFTS", f64::from(u8::from(lost.is_some()))),
+        ]);
         recorder.dispatch(
             self.kernels.get(gpu, &constants),
             &binds,

@@ -1,6 +1,10 @@
 //! The light of the ground, through the air in front of it.
 
-use super::{Table, ground_view::Looks, shafts::ONE_PLACE};
+use super::{
+    Table,
+    ground_view::Looks,
+    shafts::{LOST_BYTES, ONE_PLACE},
+};
 use crate::{
     cloudscape::Cloudscape,
     groundscape::Groundscape,
@@ -33,9 +37,16 @@ pub(crate) struct LightInputs<'a> {
     pub(crate) followed: bool,
 }
 
-/// Of the light in one direction.
-/// Bytes of one pixel: four floats.
+/// Bytes of one pixel's light: four floats.
 pub(crate) const LIT_BYTES: u64 = 16;
+
+/// What stands on the ground before the pixels of a tile, or the directions of a list.
+pub(crate) struct LitGround {
+    /// Radiance and distance; where nothing stands, what the sky loses to shafts, and -1 or less.
+    pub(crate) light: wgpu::Buffer,
+    /// What each ray loses to shafts, if there are any: `Lost` of `lib/shaft_lattice.wgsl`.
+    pub(crate) lost: Option<wgpu::Buffer>,
+}
 
 impl GroundLight {
     pub(crate) const fn new() -> Self {
@@ -51,7 +62,7 @@ impl GroundLight {
         inputs: LightInputs<'_>,
         (looks, seen): (Looks<'_>, &wgpu::Buffer),
         lost: Option<&(Arc<wgpu::Buffer>, TileUniform)>,
-    ) -> wgpu::Buffer {
+    ) -> LitGround {
         let gpu = recorder.gpu;
         let lit = gpu.buffer(
             "ground_light",
@@ -84,7 +95,12 @@ impl GroundLight {
             wind_m_s: scape.wind_m_s.unwrap_or(0.0),
         });
         let settings = settings.upload(gpu, "light settings");
-        let unused = gpu.buffer("unused", 16, wgpu::BufferUsages::STORAGE);
+        let unused = gpu.buffer("unused", LOST_BYTES, wgpu::BufferUsages::STORAGE);
+        let nowhere = gpu.buffer("unused", LOST_BYTES, wgpu::BufferUsages::STORAGE);
+        let lost_before = lost.map(|_| {
+            let size = LOST_BYTES * looks.count();
+            gpu.buffer("lost", size, wgpu::BufferUsages::STORAGE)
+        });
         let shade_maps = inputs
             .clouds
             .map_or(&inputs.source.view, |scape| &scape.shadow.view);
@@ -124,6 +140,12 @@ impl GroundLight {
             Bind::Buffer(&lit),
             Bind::Buffer(&settings),
             Bind::Buffer(lost.map_or(&unused, |(lost, _)| lost)),
+            Bind::Buffer(lost_before.as_ref().unwrap_or(&nowhere)),
+            Bind::Table(
+                inputs
+                    .clouds
+                    .map_or(&inputs.source.view, Cloudscape::cloud_air_view),
+            ),
         ];
         let flag = |on: bool| f64::from(u8::from(on));
         let mut constants = vec![
@@ -132,18 +154,18 @@ impl GroundLight {
             ("MOONLIGHT", flag(inputs.moon_view.is_some())),
             ("MOON_HIDDEN", flag(scape.by_moon)),
             ("SHAFTS", flag(lost.is_some())),
-            (
-                "SHAFTED",
-                flag(scape.shafts.as_ref().is_some_and(|s| !s.is_radial())),
-            ),
             ("WATER", flag(scape.wind_m_s.is_some())),
             ("CLOUDS", flag(inputs.clouds.is_some())),
+            inputs.clouds.map_or(("CLOUD_AIR", 0.0), Cloudscape::cloud_air),
             ("DOME", flag(inputs.clouds.is_some() && !inputs.followed)),
         ];
         constants.extend(inputs.plan.march_constants());
         constants.extend(looks.constants());
         let kernel = self.kernels.get(gpu, &constants);
         recorder.dispatch(kernel, &binds, looks.threads());
-        lit
+        LitGround {
+            light: lit,
+            lost: lost_before,
+        }
     }
 }

@@ -2,6 +2,7 @@
 //! the outputs it reads.
 
 pub(crate) mod aerial;
+pub(crate) mod cloud_air;
 pub(crate) mod cloud_curl;
 pub(crate) mod cloud_detail;
 pub(crate) mod cloud_dome;

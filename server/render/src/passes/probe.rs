@@ -170,6 +170,7 @@ impl Probe {
             .clouds
             .map_or(&inputs.multi_scattering.source.view, |scape| &scape.shadow.view);
         let unused = gpu.buffer("unused", 16, wgpu::BufferUsages::STORAGE);
+        let source = &inputs.multi_scattering.source.view;
         let binds = [
             Bind::Buffer(&air),
             Bind::Buffer(&view),
@@ -189,7 +190,8 @@ impl Probe {
             Bind::Buffer(&shade),
             Bind::Table(shadow),
             Bind::Buffer(&cloud_frame),
-            Bind::Buffer(lit_ground.as_ref().unwrap_or(&unused)),
+            Bind::Buffer(lit_ground.as_ref().map_or(&unused, |ground| &ground.light)),
+            Bind::Table(inputs.clouds.map_or(source, Cloudscape::cloud_air_view)),
         ];
         let nested = inputs.plan.method == Method::Nested;
         let flag = |on: bool| f64::from(u8::from(on));
@@ -201,6 +203,7 @@ impl Probe {
             ("MOON", flag(of_moon.is_some())),
             ("MOONLIGHT", flag(of_moon.is_some_and(|m| m.lights))),
             ("CLOUDS", flag(inputs.clouds.is_some())),
+            inputs.clouds.map_or(("CLOUD_AIR", 0.0), Cloudscape::cloud_air),
             ("GROUND", flag(inputs.ground.is_some())),
         ];
         let kernel = self.kernels.get(gpu, &constants);
@@ -228,7 +231,7 @@ impl Probe {
             air: inputs.air,
             transmittance: inputs.transmittance,
             clouds: clouds.as_ref().map(CloudsSeen::List),
-            lit_ground: lit_ground.as_ref(),
+            lit_ground: lit_ground.as_ref().map(|ground| &ground.light),
         };
         self.pillars.run(
             &mut recorder,

@@ -21,6 +21,9 @@ pub(crate) struct Sees<'a> {
     pub(crate) clouds: Option<&'a wgpu::Buffer>,
 }
 
+/// Bytes of what one place or direction loses.
+pub(crate) const LOST_BYTES: u64 = 32;
+
 /// A frame of more places has a lattice for each tile.
 const MOST_PLACES: u32 = 1 << 19;
 
@@ -66,7 +69,8 @@ impl Shafts {
         }
     }
 
-    /// Four floats a place of a lattice, or a direction, where `seen` tells what stands.
+    /// What a place of a lattice, or a direction, loses: `Lost` of `lib/shaft_lattice.wgsl`. `seen` tells what stands there.
+    /// Clouds count where rays are followed through them; else the air gets what they leave on average.
     pub(crate) fn run(
         &mut self,
         recorder: &mut Recorder<'_>,
@@ -77,7 +81,7 @@ impl Shafts {
     ) -> wgpu::Buffer {
         let gpu = recorder.gpu;
         let usage = wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_SRC;
-        let lost = gpu.buffer("shafts", 16 * looks.count(), usage);
+        let lost = gpu.buffer("shafts", LOST_BYTES * looks.count(), usage);
         let [camera, tile, directions] = looks.upload(gpu);
         let ground = scape.ground.upload(gpu, "ground");
         let shadow = scape.shadow.upload(gpu);
@@ -117,7 +121,10 @@ impl Shafts {
         let flag = |on: bool| f64::from(u8::from(on));
         let mut constants = vec![
             casts,
-            ("CLOUDS", flag(inputs.clouds.is_some())),
+            (
+                "CLOUDS",
+                flag(inputs.clouds.is_some() && (inputs.followed || shafts.is_radial())),
+            ),
             ("RADIAL", flag(shafts.is_radial())),
         ];
         constants.extend(looks.constants());

@@ -174,7 +174,7 @@ impl Sky {
         let clouds = inputs.clouds.filter(|_| dome.is_none()).map(|c| {
             let camera = (inputs.camera, projection);
             let tile = (tile, inputs.frame_px);
-            let before = inputs.ground.zip(ground.as_ref());
+            let before = inputs.ground.zip(ground.as_ref().map(|ground| &ground.light));
             let nodes = self.clouds.run(recorder, c.scape, camera, tile, before);
             self.clouds_light
                 .run(recorder, c.scape, camera, tile, (&nodes, ground.as_ref()))
@@ -250,7 +250,9 @@ impl Sky {
         let dome_uniform = dome_uniform.upload(gpu, "dome");
         let (pages, seen) = dome.map_or((&nowhere, &inputs.transmittance.view), |d| (&d.pages, &d.seen));
         let before_ground = dome.filter(|d| d.before_ground && ground.is_some());
-        let lit_ground = ground.as_ref().unwrap_or(&nowhere);
+        let lit_ground = ground.as_ref().map_or(&nowhere, |ground| &ground.light);
+        let scape = inputs.clouds.map(|c| c.scape);
+        let cloud_air = scape.map_or(&inputs.source.view, Cloudscape::cloud_air_view);
         let flag = |on: bool| f64::from(u8::from(on));
         let mut constants = vec![
             ("METHOD", inputs.plan.method_code()),
@@ -259,6 +261,7 @@ impl Sky {
             ("MOON", flag(inputs.moon.is_some())),
             ("MOONLIGHT", flag(moon_sky_view.is_some())),
             ("CLOUDS", flag(inputs.clouds.is_some())),
+            scape.map_or(("CLOUD_AIR", 0.0), Cloudscape::cloud_air),
             ("DOME", flag(dome.is_some())),
             ("GROUND", flag(ground.is_some())),
             ("BEFORE_GROUND", flag(before_ground.is_some())),
@@ -293,6 +296,7 @@ impl Sky {
                     Bind::Table(seen),
                     Bind::Buffer(lit_ground),
                     Bind::Buffer(before_ground.map_or(&nowhere, |d| &d.nodes)),
+                    Bind::Table(cloud_air),
                 ])
                 .collect();
             recorder.dispatch(kernel, &all, [threads.x, threads.y, 1]);
@@ -310,7 +314,7 @@ impl Sky {
             };
             stage(3.0, grain, [lattice, &other], blocks(tile, grain));
         }
-        (clouds, ground)
+        (clouds, ground.map(|ground| ground.light))
     }
 }
 

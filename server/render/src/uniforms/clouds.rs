@@ -104,6 +104,7 @@ pub(crate) struct ShadeUniform {
     pub(crate) asymmetry: f32,
     pub(crate) base_m: f32,
     pub(crate) even_depth: f32,
+    pub(crate) spread_left: f32,
 }
 
 /// `Shadow` of `cloud_shadow.wgsl`.

@@ -11,8 +11,6 @@ fn deck() -> Scene {
     let changes = json!({
         "camera": {"direction": {"azimuth_deg": 180, "elevation_deg": 3},
                    "projection": {"kind": "perspective", "vertical_fov_deg": 30}},
-        // A final frame finds the deck's shadow in the air place by place, a preview takes it on average.
-        "shafts": null,
         "clouds": {"coverage": 1, "shadows": true,
                    "layers": [{"kind": "volume", "base_m": 600, "top_m": 1900, "type": 0.3}]},
     });
@@ -42,8 +40,7 @@ fn first_of_sky(rows: &[f64]) -> usize {
 fn a_previews_clouds_run_down_to_the_horizon_as_those_of_a_final_frame() {
     let [preview, last] = [Quality::Preview, Quality::Final].map(|quality| rows(&seen(quality)));
     let sky = first_of_sky(&last);
-    // A preview's maps of light are coarse, so that such a deck is up to a sixth brighter: what counts is that this does not
-    // change towards the horizon. Its cells are 2.6 pixels high here, which in the steepest rows makes a tenth.
+    // A preview takes few steps to the light, so that such a deck is a few hundredths off: what counts is that this does not change towards the horizon. Its cells are 2.6 pixels high here, which in the steepest rows makes a tenth.
     let higher = preview[sky - 30] / last[sky - 30];
     for row in sky - 30..sky {
         let ratio = preview[row] / last[row] / higher;
@@ -67,4 +64,40 @@ fn no_bright_line_stands_between_a_deck_and_the_ground() {
             );
         }
     }
+}
+
+/// Shafts find what the air loses ray by ray, else it stands in a table: under a deck that lets no sunlight through, both must
+/// find the same, and that before clouds as before the sky.
+#[test]
+fn the_air_before_a_deck_loses_its_sunlight_with_shafts_and_without() {
+    let mut without = deck();
+    without.shafts = None;
+    let [with, without] =
+        [deck(), without].map(|scene| rows(&seen_as(order(&scene, SIZE, Quality::Final, Output::Linear))));
+    let sky = first_of_sky(&with);
+    for (row, (with, without)) in with.iter().zip(&without).enumerate().take(sky) {
+        // A table of 37 by 12 directions.
+        let ratio = with / without;
+        assert!((0.98..1.02).contains(&ratio), "row {row} of {sky}: {ratio}");
+    }
+}
+
+/// Against a low sun the air in the shadow of heaps is dark, over a way on which light passes several of them. A preview has no
+/// shafts, but as dark an air.
+#[test]
+fn a_preview_has_a_final_frames_air_under_a_low_sun() {
+    let changes = json!({
+        "camera": {"direction": {"azimuth_deg": 200, "elevation_deg": 10},
+                   "projection": {"kind": "perspective", "vertical_fov_deg": 40}},
+        "sun": {"position": {"azimuth_deg": 200, "elevation_deg": 8}},
+        "clouds": {"shadows": true},
+    });
+    let scene = Scene::from_value(&merged(usual(), &changes)).unwrap();
+    let mean = |quality| {
+        let rows = rows(&seen_as(order(&scene, SIZE, quality, Output::Linear)));
+        rows.iter().take(130).sum::<f64>() / 130.0
+    };
+    // Where clouds dim air alike in all directions, by their coverage, this is 2.
+    let ratio = mean(Quality::Preview) / mean(Quality::Final);
+    assert!((0.85..1.18).contains(&ratio), "{ratio}");
 }

@@ -61,14 +61,15 @@ fn fine(clouds: &Value) -> Value {
 
 #[test]
 fn the_probe_is_a_final_frame_without_jitter() {
-    let (width, height) = (48, 24);
-    for (name, scene) in [
-        ("all kinds", cloudy(fine(&scattered()), 2.0, 45.0)),
-        ("between", cloudy(fine(&scattered()), 3000.0, 6.0)),
-        ("from above", cloudy(fine(&cumulus()), 6000.0, 30.0)),
-        ("cirrus", cloudy(cirrus(), 2.0, 20.0)),
-        ("moonlit", moonlit(fine(&cumulus()))),
+    for (name, scene, width) in [
+        ("all kinds", cloudy(fine(&scattered()), 2.0, 45.0), 48),
+        ("between", cloudy(fine(&scattered()), 3000.0, 6.0), 48),
+        ("from above", cloudy(fine(&cumulus()), 6000.0, 30.0), 48),
+        // Which is so smooth that shafts count, found at every second pixel.
+        ("cirrus", cloudy(cirrus(), 2.0, 20.0), 96),
+        ("moonlit", moonlit(fine(&cumulus())), 48),
     ] {
+        let height = width / 2;
         let frame = radiance(&scene, width, height, Quality::Final);
         let size = (f64::from(width), f64::from(height));
         let towards = |(x, y, _)| sight(&scene.camera, size, (x as f64 + 0.5, y as f64 + 0.5));

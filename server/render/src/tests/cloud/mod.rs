@@ -1,6 +1,7 @@
 //! Where clouds stand and how light goes through them: single functions of the shaders against their f64 twins and
 //! against what can be known without computing it.
 
+mod air;
 mod cover;
 mod far;
 mod grid;

@@ -93,7 +93,7 @@ fn half_lit_air_loses_what_the_integral_says() {
             (11, parts[4].as_entire_binding()),
             (12, parts[5].as_entire_binding()),
         ];
-        let statements = "x = vec4f(lost_along(a.xyz, 1.4e4, b.x, 0.0), 0.0);";
+        let statements = "x = vec4f(lost_along(a.xyz, 1.4e4, b.x, 0.0).light, 0.0);";
         let found = evaluate(gpu, &shader::SHAFTS, statements, chunk, &binds);
         // The mean over all jitters, as neighbouring pixels have them.
         let mean = found.iter().map(|f| f64::from(f[1])).sum::<f64>() / found.len() as f64;

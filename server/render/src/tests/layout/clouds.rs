@@ -158,6 +158,7 @@ fn shade_shadow_dome_and_frame() {
             asymmetry: f32,
             base_m: f32,
             even_depth: f32,
+            spread_left: f32,
         }
     );
     let shaders = [
