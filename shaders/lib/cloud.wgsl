@@ -326,7 +326,7 @@ fn layer_density(layer: CloudLayer, weather: Weather, along_m: vec2f, altitude_m
     return Density(density, bulk);
 }
 
-// Extinction coefficient at a place of a band, 1/m, and the same before the detail noise.
+// Extinction coefficient at a place of a band, 1/m; and the bulk, which is over 0 where there may be some.
 fn band_extinction(band: CloudBand, p: vec3f, altitude_m: f32, look: Look) -> Density {
     let along_m = along_sphere(clouds.radius_m, p, altitude_m);
     let weather = weather_at(along_m);
@@ -336,7 +336,7 @@ fn band_extinction(band: CloudBand, p: vec3f, altitude_m: f32, look: Look) -> De
         let density = layer_density(layer, weather, along_m, altitude_m, look);
         // Rain comes from drops that are larger and denser: darker cloud.
         let densest_per_m = layer.extinction_per_m * (1.0 + 2.0 * clouds.precipitation * weather.rain);
-        sum.bulk += densest_per_m * density.bulk;
+        sum.bulk += density.bulk;
         sum.value += densest_per_m * density.value;
     }
     return sum;

@@ -9,7 +9,6 @@ use crate::{
     id::{JobId, Part},
 };
 use serde_json::Value;
-use sqlx::Row;
 
 /// A frame that is done, and what its worker said of it.
 pub(crate) struct Settled {
@@ -27,19 +26,11 @@ impl Queue {
                  ORDER BY idempotency_key",
                 of_job(self),
             );
-            let rows = sqlx::query(sqlx::AssertSqlSafe(text))
+            sqlx::query_as(sqlx::AssertSqlSafe(text))
                 .bind(NAME)
                 .bind(prefix(self, id))
                 .fetch_all(pool)
-                .await?;
-            let read = |row| {
-                Ok::<_, sqlx::Error>((
-                    Row::try_get(row, 0)?,
-                    Row::try_get(row, 1)?,
-                    Row::try_get(row, 2)?,
-                ))
-            };
-            rows.iter().map(read).collect::<Result<_, _>>()?
+                .await?
         });
         let settled = |(key, result, worker): (String, Option<String>, Option<String>)| {
             let Some(Part::Frame(frame)) = Part::of_key(&key) else {

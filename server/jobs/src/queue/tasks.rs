@@ -10,7 +10,6 @@ use apalis_postgres::PostgresStorage;
 use futures_util::stream;
 use serde::Serialize;
 use serde_json::Value;
-use sqlx::Row;
 use std::collections::HashSet;
 use ulid::Generator;
 
@@ -131,20 +130,11 @@ impl Queue {
                 is_cancelled(self),
                 of_job(self),
             );
-            let rows = sqlx::query(sqlx::AssertSqlSafe(text))
+            sqlx::query_as(sqlx::AssertSqlSafe(text))
                 .bind(NAME)
                 .bind(prefix(self, id))
                 .fetch_all(pool)
-                .await?;
-            let read = |row| {
-                Ok::<_, sqlx::Error>((
-                    Row::try_get(row, 0)?,
-                    Row::try_get(row, 1)?,
-                    Row::try_get(row, 2)?,
-                    Row::try_get(row, 3)?,
-                ))
-            };
-            rows.iter().map(read).collect::<Result<_, _>>()?
+                .await?
         });
         let mut counts = Counts::default();
         for (status, cancelled, count, retries) in rows {
@@ -190,19 +180,11 @@ impl Queue {
                 of_job(self),
                 is_cancelled(self),
             );
-            let rows = sqlx::query(sqlx::AssertSqlSafe(text))
+            sqlx::query_as(sqlx::AssertSqlSafe(text))
                 .bind(NAME)
                 .bind(prefix(self, id))
                 .fetch_all(pool)
-                .await?;
-            let read = |row| {
-                Ok::<_, sqlx::Error>((
-                    Row::try_get(row, 0)?,
-                    Row::try_get(row, 1)?,
-                    Row::try_get(row, 2)?,
-                ))
-            };
-            rows.iter().map(read).collect::<Result<_, _>>()?
+                .await?
         });
         let dead = |(key, attempts, result): (String, i64, Option<String>)| Dead {
             frame: match Part::of_key(&key) {
@@ -259,12 +241,10 @@ impl Queue {
             let text = format!(
                 "SELECT status, count(*) FROM {tasks} WHERE job_type = $1 AND status NOT IN ('Done', 'Killed') GROUP BY 1"
             );
-            let rows = sqlx::query(sqlx::AssertSqlSafe(text))
+            sqlx::query_as(sqlx::AssertSqlSafe(text))
                 .bind(NAME)
                 .fetch_all(pool)
-                .await?;
-            let read = |row| Ok::<_, sqlx::Error>((Row::try_get(row, 0)?, Row::try_get(row, 1)?));
-            rows.iter().map(read).collect::<Result<_, _>>()?
+                .await?
         });
         let of = |running: bool| {
             let rows = rows.iter().filter(|(status, _)| (status == "Running") == running);
