@@ -2,7 +2,7 @@
 import package::lib::air::Air;
 import package::lib::cloud_air::cloud_air_direction;
 import package::lib::cloud_shade::{CloudShade, shade_depth};
-import package::lib::geometry::{altitude_after, cosine_after, distance_to_sphere, distance_to_top, edge_cosine, shell_stretch};
+import package::lib::geometry::{altitude_after, cosine_after, distance_to_sphere, edge_cosine, shell_stretch};
 import package::lib::light::View;
 import package::lib::phase::{cornette_shanks_phase, rayleigh_phase};
 import package::lib::shaft_ray::{LostSum, with_step};
@@ -46,7 +46,7 @@ fn cloud_air(@builtin(global_invocation_id) id: vec3u) {
     let last = max(shade.count, 1u) - 1u;
     let top_m = shade.middles_m[last / 4u][last % 4u];
     let reach = shell_stretch(air.radius_m + top_m, h0 - top_m, mu, end_m);
-    // From high above, the way down to them is not looked at.
+    // From where the air begins to behind the last place that clouds can shade.
     let way_m = select(0.0, max(min(reach.y, max(reach.x, air_from_m) + FARTHEST_M) - air_from_m, 0.0), shade.count > 0u && reach.x < reach.y);
     let phases = vec2f(rayleigh_phase(nu), cornette_shanks_phase(nu, air.mie_asymmetry));
     var sum: LostSum;

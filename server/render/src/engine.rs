@@ -186,7 +186,7 @@ impl Engine {
                 }
             });
             let clouded = cloud_sky.is_some();
-            // A preview's clouds dim all air alike.
+            // In previews a table tells what clouds keep from the air.
             let shafted =
                 order.quality == Quality::Final && exact_shafts(scene, clouded, order.quality).is_some();
             let light = CloudLight::new(&tables.stand, &night, &lights, (clouded, shafted));

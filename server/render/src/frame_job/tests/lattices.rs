@@ -135,10 +135,11 @@ fn clouds_are_the_same_but_at_rims() {
         ..scene(&json!({"camera": {"direction": {"azimuth_deg": 60, "elevation_deg": 12}}}))
     };
     let (most, beyond) = difference(&both(&mut engine, &order(scene, 225, 150, Output::Display)));
-    // Measured: 45, and 16.5 % by more than one, in a small frame, which is mostly rims: the cells of the dome are seen at
-    // other places than the lattice's. No whole cloud may differ: that would be far more than rims.
+    // Measured: 39, and 20.1 % by more than one, in a small frame, which is mostly rims: the cells of the dome are seen at
+    // other places than the lattice's, and have light of their own each (16.5 % where that light is the shadow maps' alone). No
+    // whole cloud may differ: that would be far more than rims.
     assert!(
-        most < 60 && beyond < 0.2,
+        most < 60 && beyond < 0.25,
         "{most}, {beyond:.4} of all by more than one"
     );
 }

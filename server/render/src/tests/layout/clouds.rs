@@ -162,6 +162,7 @@ fn shade_shadow_dome_and_frame() {
         }
     );
     let shaders = [
+        &shader::CLOUD_AIR,
         &shader::CLOUD_SHADOW,
         &shader::CLOUD_VIEW_LIGHT,
         &shader::SKY,
@@ -203,5 +204,6 @@ fn shade_shadow_dome_and_frame() {
             light: vec3
         }
     );
-    check(&[&shader::SKY, &shader::PROBE], "CloudFrame", &part, &f);
+    let shaders = [&shader::CLOUD_AIR, &shader::SKY, &shader::PROBE];
+    check(&shaders, "CloudFrame", &part, &f);
 }
