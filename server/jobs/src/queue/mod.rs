@@ -35,10 +35,9 @@ const CONNECTIONS: u32 = 4;
 const CONNECT_TIMEOUT: Duration = Duration::from_secs(10);
 /// How long SQLite waits for another process to finish writing.
 const BUSY_TIMEOUT: Duration = Duration::from_secs(30);
-/// How often, and after what pause, tables are made again that another process has just made: SQLite has no lock to
-/// keep it waiting.
-const MIGRATIONS: usize = 20;
-const MIGRATION_PAUSE: Duration = Duration::from_millis(100);
+/// How often, and after what pause, an SQLite file is opened that other processes open and make at that time.
+const OPENINGS: usize = 20;
+const OPENING_PAUSE: Duration = Duration::from_millis(100);
 
 /// The queue. Clones are the same queue.
 #[derive(Clone, Debug)]
@@ -75,6 +74,18 @@ impl Queue {
     /// # Errors
     /// [`JobError::Address`], [`JobError::Queue`].
     pub async fn open(address: &str) -> Result<Self, JobError> {
+        for _ in 1..OPENINGS {
+            match Self::open_once(address).await {
+                // Another process may be making the same file: SQLite waits for no one who turns to its journal or to
+                // another's tables.
+                Err(JobError::Queue(_)) if address.starts_with("sqlite:") => sleep(OPENING_PAUSE).await,
+                done => return done,
+            }
+        }
+        Self::open_once(address).await
+    }
+
+    async fn open_once(address: &str) -> Result<Self, JobError> {
         let queue = if address.starts_with("sqlite:") {
             let options = SqliteConnectOptions::from_str(address)
                 .map_err(|e| JobError::Address(format!("{address}: {e}")))?
@@ -95,12 +106,6 @@ impl Queue {
                 "a queue is sqlite:FILE or postgres://USER:PASSWORD@HOST/DATABASE".into(),
             ));
         };
-        for _ in 1..MIGRATIONS {
-            match queue.migrate().await {
-                Err(_) if matches!(queue, Self::Sqlite(_)) => sleep(MIGRATION_PAUSE).await,
-                done => return done.map(|()| queue),
-            }
-        }
         queue.migrate().await?;
         Ok(queue)
     }
