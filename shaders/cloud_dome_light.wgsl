@@ -7,14 +7,14 @@ import package::lib::geometry::edge_cosine;
 import package::lib::shaft_lattice::Lost;
 import package::lib::view_ray::Observer;
 
-@group(0) @binding(21) var<uniform> dome: Dome;
-@group(0) @binding(22) var<uniform> observer: Observer;
+@group(0) @binding(22) var<uniform> dome: Dome;
+@group(0) @binding(23) var<uniform> observer: Observer;
 // Column and row of each block, and where it is kept.
-@group(0) @binding(23) var<storage, read> blocks: array<vec4u>;
+@group(0) @binding(24) var<storage, read> blocks: array<vec4u>;
 // Six vectors a corner, as `Nodes` has them.
-@group(0) @binding(24) var<storage, read> nodes: array<vec4f>;
+@group(0) @binding(25) var<storage, read> nodes: array<vec4f>;
 // Radiance to add in R, G, B; alpha is the share of what lies behind that comes through.
-@group(0) @binding(25) var seen: texture_storage_2d<rgba32float, write>;
+@group(0) @binding(26) var seen: texture_storage_2d<rgba32float, write>;
 
 @compute @workgroup_size(64)
 fn cloud_dome_light(@builtin(global_invocation_id) id: vec3u) {

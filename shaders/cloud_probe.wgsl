@@ -10,14 +10,14 @@ override GROUND: bool = false;
 // True where shafts fall through the air.
 override SHAFTS: bool = false;
 
-@group(0) @binding(21) var<storage, read> directions: array<vec4f>;
-@group(0) @binding(22) var<uniform> observer: Observer;
+@group(0) @binding(22) var<storage, read> directions: array<vec4f>;
+@group(0) @binding(23) var<uniform> observer: Observer;
 // Radiance to add in R, G, B; alpha is the share of what lies behind that comes through.
-@group(0) @binding(23) var<storage, read_write> answers: array<vec4f>;
+@group(0) @binding(24) var<storage, read_write> answers: array<vec4f>;
 // In alpha, how far away that is; else -1.
-@group(0) @binding(24) var<storage, read> lit_ground: array<vec4f>;
+@group(0) @binding(25) var<storage, read> lit_ground: array<vec4f>;
 // What each direction loses to shafts.
-@group(0) @binding(25) var<storage, read> lost_to_shafts: array<Lost>;
+@group(0) @binding(26) var<storage, read> lost_to_shafts: array<Lost>;
 
 @compute @workgroup_size(64)
 fn cloud_probe(@builtin(global_invocation_id) id: vec3u) {

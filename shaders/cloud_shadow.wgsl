@@ -1,6 +1,7 @@
 // For each band and sheet of clouds the optical depth towards the light, by where the way to it crosses their middle.
-import package::lib::cloud::{COARSE, band_at, band_extinction, clouds, sheet_optical_depth};
+import package::lib::cloud::{band_at, clouds, sheet_optical_depth};
 import package::lib::cloud_shade::{CloudShade, LOWER_SHARES, UPPER_SHARES, depth_to_map, light_cosine, shade_place};
+import package::lib::cloud_volume::coarse_extinction;
 
 struct Shadow {
     light: vec3f,
@@ -11,7 +12,9 @@ struct Shadow {
 
 @group(0) @binding(8) var<uniform> shade: CloudShade;
 @group(0) @binding(9) var<uniform> shadow: Shadow;
-@group(0) @binding(10) var maps: texture_storage_2d_array<rgba32float, write>;
+@group(0) @binding(10) var linear_clamp: sampler;
+@group(0) @binding(11) var volume: texture_3d<f32>;
+@group(0) @binding(12) var maps: texture_storage_2d_array<rgba32float, write>;
 
 // The place on a sphere of altitude h, that way from the origin along the sphere.
 fn place_on(along_m: vec2f, altitude_m: f32) -> vec3f {
@@ -53,7 +56,7 @@ fn cloud_shadow(@builtin(global_invocation_id) id: vec3u) {
             for (var i = 0.5; i < steps; i += 1.0) {
                 let at_m = h - i * step_m;
                 let at = p + (at_m - middle_m) / mu * shadow.light;
-                depth += band_extinction(band, at, at_m, COARSE).value * step_m / abs(mu);
+                depth += coarse_extinction(volume, linear_clamp, band, at, at_m) * step_m / abs(mu);
             }
             h = below_m;
             upper = select(upper, vec4f(depth), vec4u(0u, 1u, 2u, 3u) == vec4u(k));

@@ -24,17 +24,17 @@ struct Tile {
     stride_px: u32,
 }
 
-@group(0) @binding(21) var<uniform> camera: Camera;
-@group(0) @binding(22) var<uniform> tile: Tile;
-@group(0) @binding(23) var<uniform> observer: Observer;
+@group(0) @binding(22) var<uniform> camera: Camera;
+@group(0) @binding(23) var<uniform> tile: Tile;
+@group(0) @binding(24) var<uniform> observer: Observer;
 // Six vectors a pixel, as `Nodes` has them.
-@group(0) @binding(24) var<storage, read> nodes: array<vec4f>;
+@group(0) @binding(25) var<storage, read> nodes: array<vec4f>;
 // Radiance to add in R, G, B; alpha is the share of what lies behind that comes through.
-@group(0) @binding(25) var table: texture_storage_2d<rgba32float, write>;
+@group(0) @binding(26) var table: texture_storage_2d<rgba32float, write>;
 // In alpha, how far away what stands on the ground is; else -1.
-@group(0) @binding(26) var<storage, read> lit_ground: array<vec4f>;
+@group(0) @binding(27) var<storage, read> lit_ground: array<vec4f>;
 // What each pixel loses to shafts.
-@group(0) @binding(27) var<storage, read> lost_to_shafts: array<Lost>;
+@group(0) @binding(28) var<storage, read> lost_to_shafts: array<Lost>;
 
 @compute @workgroup_size(8, 8)
 fn cloud_view_light(@builtin(global_invocation_id) id: vec3u) {

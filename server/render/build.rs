@@ -96,6 +96,7 @@ fn binding(space: &AddressSpace, inner: &TypeInner) -> Option<String> {
         ImageClass::Sampled { .. } => format!("Kind::{shape}"),
         ImageClass::Storage { format, .. } => match format {
             StorageFormat::Rgba32Float => format!("Kind::Write{shape}(Texel::Float)"),
+            StorageFormat::R32Float => format!("Kind::Write{shape}(Texel::Single)"),
             StorageFormat::Rgba8Unorm => format!("Kind::Write{shape}(Texel::Byte)"),
             _ => return None,
         },

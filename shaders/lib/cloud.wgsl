@@ -71,6 +71,7 @@ struct Clouds {
     shear_m: vec2f,
     curl_inverse_scale_per_m: f32,
     curl_m: f32,
+    layer_count: u32,
     band_count: u32,
     sheet_count: u32,
     // Of the second weather source.
@@ -103,10 +104,10 @@ struct Clouds {
 @group(0) @binding(0) var<uniform> clouds: Clouds;
 @group(0) @binding(1) var linear_repeat: sampler;
 @group(0) @binding(2) var shape_volume: texture_3d<f32>;
-@group(0) @binding(3) var detail_volume: texture_3d<f32>;
-@group(0) @binding(4) var curl_texture: texture_2d<f32>;
-@group(0) @binding(5) var first_weather: texture_2d<f32>;
-@group(0) @binding(6) var second_weather: texture_2d<f32>;
+@group(0) @binding(3) var first_weather: texture_2d<f32>;
+@group(0) @binding(4) var second_weather: texture_2d<f32>;
+@group(0) @binding(5) var detail_volume: texture_3d<f32>;
+@group(0) @binding(6) var curl_texture: texture_2d<f32>;
 @group(0) @binding(7) var sheet_texture: texture_2d<f32>;
 
 // True where all of the clouds are one layer: then no device looks up which, and that is a fifth of the work of some.
@@ -272,16 +273,29 @@ struct Look {
 // Without the detail noise.
 const COARSE = Look(false, 0.0, 0.0);
 
-// Density at a place of one layer.
-fn layer_density(layer: CloudLayer, weather: Weather, along_m: vec2f, altitude_m: f32, look: Look) -> Density {
+// What the coarse noise makes of a layer, before the detail noise takes its part.
+struct Coarse {
+    // Over 0 where there is cloud: its density then, no more than `cover`.
+    excess: f32,
+    cover: f32,
+    // As `profile` tells it.
+    wanted: f32,
+    // 1 for a deck without holes.
+    closed: f32,
+    place: vec3f,
+    // Share of the layer's height.
+    h: f32,
+}
+
+const NO_CLOUD = Coarse(-1.0, 0.0, 0.0, 0.0, vec3f(0.0), 0.0);
+
+fn coarse_at(layer: CloudLayer, weather: Weather, along_m: vec2f, altitude_m: f32) -> Coarse {
     let h = (altitude_m - layer.base_m) * layer.inverse_thickness_per_m;
     let strength = strength_of(layer, weather);
     let wanted = profile(layer, weather, strength, clamp(h, 0.0, 1.0));
-    var density = 0.0;
-    var bulk = 0.0;
+    var coarse = NO_CLOUD;
     if h > 0.0 && h < 1.0 && strength * wanted > 0.0 {
         let place = vec3f(along_m + clouds.shear_m * h, altitude_m);
-        // A closed deck has no holes.
         let closed = smoothstep(0.85, 1.0, layer.coverage);
         let noise = textureSampleLevel(shape_volume, linear_repeat, place * clouds.base_inverse_scale_per_m - clouds.base_drift, 0.0);
         let fbm = dot(noise.gba, vec3f(0.625, 0.25, 0.125));
@@ -290,40 +304,55 @@ fn layer_density(layer: CloudLayer, weather: Weather, along_m: vec2f, altitude_m
         // Heaps narrow upwards into towers; the anvil widens again.
         let narrowed = strength * (1.0 - heaped(layer, weather) * TAPER * h * h * (1.0 - anvil));
         let cover = pow(narrowed, 1.0 - 0.75 * anvil);
-        density = clamp((low * wanted - 1.0 + cover) / max(cover, 1e-3), 0.0, 1.0) * cover;
-        bulk = density;
-        if look.fine {
-            if density > 0.0 && density < BITE * clouds.erosion + 0.3 {
-                var at = place;
-                if clouds.curl_m > 0.0 {
-                    let curl = textureSampleLevel(curl_texture, linear_repeat, place.xy * clouds.curl_inverse_scale_per_m, 0.0).rgb;
-                    at += (curl - 0.5) * 4.0 * clouds.curl_m * (1.0 - h);
-                }
-                let detail_at = at * clouds.detail_inverse_scale_per_m - clouds.detail_drift;
-                let coarse = textureSampleLevel(detail_volume, linear_repeat, detail_at, 0.0).a;
-                let finer = textureSampleLevel(detail_volume, linear_repeat, 3.7 * detail_at, 0.0).a;
-                let blur = max(look.blur_m, look.pixel_m) * clouds.detail_inverse_scale_per_m;
-                let sharp = 0.6 * (coarse - 0.5) * (1.0 - smoothstep(0.3, 1.5, blur / COARSE_WAVE))
-                    + 0.4 * (finer - 0.5) * (1.0 - smoothstep(0.3, 1.5, blur / FINER_WAVE));
-                let detail = smoothstep(0.15, 0.85, 0.5 + sharp);
-                // Wisps at the base, billows above.
-                let bite = mix(detail, 1.0 - detail, clamp(4.0 * h, 0.0, 1.0)) * BITE * clouds.erosion * (1.0 - 0.7 * closed);
-                density = clamp((density - bite) / max(1.0 - bite, 1e-3), 0.0, 1.0);
+        coarse = Coarse(low * wanted - 1.0 + cover, cover, wanted, closed, place, h);
+    }
+    return coarse;
+}
+
+// Density at a place of one layer.
+fn layer_density(layer: CloudLayer, weather: Weather, along_m: vec2f, altitude_m: f32, look: Look) -> Density {
+    let coarse = coarse_at(layer, weather, along_m, altitude_m);
+    var density = max(coarse.excess, 0.0);
+    var bulk = density;
+    if coarse.cover > 0.0 && look.fine {
+        let h = coarse.h;
+        let cover = coarse.cover;
+        let closed = coarse.closed;
+        if density > 0.0 && density < BITE * clouds.erosion + 0.3 {
+            var at = coarse.place;
+            if clouds.curl_m > 0.0 {
+                let curl = textureSampleLevel(curl_texture, linear_repeat, coarse.place.xy * clouds.curl_inverse_scale_per_m, 0.0).rgb;
+                at += (curl - 0.5) * 4.0 * clouds.curl_m * (1.0 - h);
             }
-            let far = smoothstep(BLURRED.x, BLURRED.y, look.pixel_m * clouds.base_inverse_scale_per_m);
-            if far > 0.0 {
-                let bite = 0.5 * BITE * clouds.erosion * (1.0 - 0.7 * closed);
-                let inverse = 1.0 / max(1.0 - bite, 1e-3);
-                let least = (low_noise(BILLOWS.x, closed) * wanted - 1.0 + cover - bite) * inverse;
-                let most = (low_noise(BILLOWS.y, closed) * wanted - 1.0 + cover - bite) * inverse;
-                let clumps = clumps_between(least, most, max((cover - bite) * inverse, 1e-3));
-                let even_per_m = clumped_extinction(clumps.share, layer.extinction_per_m * clumps.density, CLUMP / clouds.base_inverse_scale_per_m);
-                density = mix(density, even_per_m / layer.extinction_per_m, far);
-                bulk = max(bulk, clumps.share);
-            }
+            let detail_at = at * clouds.detail_inverse_scale_per_m - clouds.detail_drift;
+            let first = textureSampleLevel(detail_volume, linear_repeat, detail_at, 0.0).a;
+            let finer = textureSampleLevel(detail_volume, linear_repeat, 3.7 * detail_at, 0.0).a;
+            let blur = max(look.blur_m, look.pixel_m) * clouds.detail_inverse_scale_per_m;
+            let sharp = 0.6 * (first - 0.5) * (1.0 - smoothstep(0.3, 1.5, blur / COARSE_WAVE))
+                + 0.4 * (finer - 0.5) * (1.0 - smoothstep(0.3, 1.5, blur / FINER_WAVE));
+            let detail = smoothstep(0.15, 0.85, 0.5 + sharp);
+            // Wisps at the base, billows above.
+            let bite = mix(detail, 1.0 - detail, clamp(4.0 * h, 0.0, 1.0)) * BITE * clouds.erosion * (1.0 - 0.7 * closed);
+            density = clamp((density - bite) / max(1.0 - bite, 1e-3), 0.0, 1.0);
+        }
+        let far = smoothstep(BLURRED.x, BLURRED.y, look.pixel_m * clouds.base_inverse_scale_per_m);
+        if far > 0.0 {
+            let bite = 0.5 * BITE * clouds.erosion * (1.0 - 0.7 * closed);
+            let inverse = 1.0 / max(1.0 - bite, 1e-3);
+            let least = (low_noise(BILLOWS.x, closed) * coarse.wanted - 1.0 + cover - bite) * inverse;
+            let most = (low_noise(BILLOWS.y, closed) * coarse.wanted - 1.0 + cover - bite) * inverse;
+            let clumps = clumps_between(least, most, max((cover - bite) * inverse, 1e-3));
+            let even_per_m = clumped_extinction(clumps.share, layer.extinction_per_m * clumps.density, CLUMP / clouds.base_inverse_scale_per_m);
+            density = mix(density, even_per_m / layer.extinction_per_m, far);
+            bulk = max(bulk, clumps.share);
         }
     }
     return Density(density, bulk);
+}
+
+// Rain comes from drops that are larger and denser: darker cloud.
+fn densest_per_m(layer: CloudLayer, weather: Weather) -> f32 {
+    return layer.extinction_per_m * (1.0 + 2.0 * clouds.precipitation * weather.rain);
 }
 
 // Extinction coefficient at a place of a band, 1/m; and the bulk, which is over 0 where there may be some.
@@ -334,10 +363,8 @@ fn band_extinction(band: CloudBand, p: vec3f, altitude_m: f32, look: Look) -> De
     for (var i = 0u; i < one_or(band.count); i++) {
         let layer = layer_at(band.first + i);
         let density = layer_density(layer, weather, along_m, altitude_m, look);
-        // Rain comes from drops that are larger and denser: darker cloud.
-        let densest_per_m = layer.extinction_per_m * (1.0 + 2.0 * clouds.precipitation * weather.rain);
         sum.bulk += density.bulk;
-        sum.value += densest_per_m * density.value;
+        sum.value += densest_per_m(layer, weather) * density.value;
     }
     return sum;
 }

@@ -70,36 +70,50 @@ struct LightDepth {
     behind: f32,
 }
 
-fn light_depth_within(
+// Along the light's way through a band: its optical depth from the top down to eight heights.
+struct LightColumn {
+    upper: vec4f,
+    lower: vec4f,
+}
+
+// The way that crosses p.
+fn light_column(
     shade: CloudShade,
     maps: texture_2d_array<f32>,
     linear_clamp: sampler,
     index: u32,
-    base_m: f32,
-    top_m: f32,
+    middle_m: f32,
     radius_m: f32,
     p: vec3f,
     altitude_m: f32,
     light: vec3f,
     mu: f32,
-) -> LightDepth {
-    let middle_m = 0.5 * (base_m + top_m);
+) -> LightColumn {
     let q = p + (middle_m - altitude_m) / light_cosine(mu) * light;
     let at = shade_coordinate(shade, along_sphere(radius_m, q, middle_m));
     let upper = depth_from_map(textureSampleLevel(maps, linear_clamp, at, 2u * index, 0.0));
     let lower = depth_from_map(textureSampleLevel(maps, linear_clamp, at, 2u * index + 1u, 0.0));
-    let share = (top_m - altitude_m) / (top_m - base_m);
+    return LightColumn(upper, lower);
+}
+
+// Its optical depth down to a share of the band's thickness.
+fn depth_over(column: LightColumn, share: f32) -> f32 {
     // The rise from each height to the next counts by how much of it lies above.
     let upper_before = vec4f(0.0, UPPER_SHARES.xyz);
     let lower_before = vec4f(UPPER_SHARES.w, LOWER_SHARES.xyz);
     let u = clamp((share - upper_before) / (UPPER_SHARES - upper_before), vec4f(0.0), vec4f(1.0));
     let l = clamp((share - lower_before) / (LOWER_SHARES - lower_before), vec4f(0.0), vec4f(1.0));
-    let over = dot(u, upper - vec4f(0.0, upper.xyz)) + dot(l, lower - vec4f(upper.w, lower.xyz));
-    let under = lower.w - over;
+    return dot(u, column.upper - vec4f(0.0, column.upper.xyz)) + dot(l, column.lower - vec4f(column.upper.w, column.lower.xyz));
+}
+
+// Of a band, what lies before a share of its thickness from above, towards the light, and what lies behind another.
+fn depths_beyond(column: LightColumn, share_before: f32, share_behind: f32, mu: f32) -> LightDepth {
+    let over = vec2f(depth_over(column, share_before), depth_over(column, share_behind));
+    let under = column.lower.w - over;
     // Light that runs level in a place comes from above on the near side and from below on the far one: the sphere falls
     // away, by a band's thickness or so where it runs at the least cosine.
     let from_above = smoothstep(-LEAST_COSINE, LEAST_COSINE, mu);
-    return LightDepth(mix(under, over, from_above), mix(over, under, from_above));
+    return LightDepth(mix(under.x, over.x, from_above), mix(over.y, under.y, from_above));
 }
 
 // Optical depth towards the light of all bands over a place. `mu` is the light's cosine with the zenith there.

@@ -2,11 +2,12 @@
 // and then this.
 import package::lib::aerial::aerial_to;
 import package::lib::cloud_air::scattered_under_clouds;
-import package::lib::cloud::{COARSE, CloudBand, band_at, band_extinction, clouds};
+import package::lib::cloud::{CloudBand, band_at, clouds};
 import package::lib::cloud_far::BLURRED;
 import package::lib::cloud_light::{Lobes, ambient_source, lit_source};
 import package::lib::cloud_ray::{CloudRay, air, view};
-import package::lib::cloud_shade::{CloudShade, LightDepth, beyond_maps, light_cosine, light_depth_within, shade_depth};
+import package::lib::cloud_shade::{CloudShade, LightDepth, beyond_maps, depths_beyond, light_column, light_cosine, shade_depth};
+import package::lib::cloud_volume::coarse_extinction;
 import package::lib::geometry::{along_sphere, altitude_after, distance_to_top};
 import package::lib::light::scattered_radiance;
 import package::lib::tables::{SkyViewRay, light_from_table, sun_cosine_unit, unit_to_coordinate};
@@ -20,6 +21,8 @@ import package::lib::transmittance::transmittance_to_space;
 @group(0) @binding(15) var aerial_mie: texture_3d<f32>;
 @group(0) @binding(16) var aerial_multiple: texture_3d<f32>;
 @group(0) @binding(17) var shade_maps: texture_2d_array<f32>;
+// Extinction coefficients, as `lib/cloud_volume.wgsl` places them.
+@group(0) @binding(21) var cloud_volume: texture_3d<f32>;
 
 // Light in the air up to a distance, and what the air lets through.
 struct AirBefore {
@@ -46,7 +49,7 @@ fn depth_within(band: CloudBand, p: vec3f, altitude_m: f32, towards: vec3f, mu: 
         let far_m = most_m * far * far;
         let t = 0.5 * (near_m + far_m);
         let h = altitude_after(clouds.radius_m, altitude_m, mu, t);
-        sum += band_extinction(band, p + t * towards, h, COARSE).value * (far_m - near_m);
+        sum += coarse_extinction(cloud_volume, linear_clamp, band, p + t * towards, h) * (far_m - near_m);
         near_m = far_m;
     }
     return sum;
@@ -91,20 +94,30 @@ const CLOSE_BY = 0.2;
 const LOW_LIGHT = vec2f(0.05, 0.25);
 const LOW_LIGHT_STEPS = 3u;
 
-// Optical depth of a band from a place towards the light (`side` 1) or away from it (-1): followed close to the place,
-// and beyond as it stands in the maps of shadows. `close_m` is how far the steps go at most.
-fn depth_beside(index: u32, band: CloudBand, p: vec3f, altitude_m: f32, mu_s: f32, side: f32, steps: u32, close_m: f32) -> f32 {
-    let towards = side * view.sun;
-    let cosine = side * light_cosine(mu_s);
+// How far the steps go on one side: towards the light (`side` 1) or away from it (-1), `close_m` at most, and not out of the
+// band.
+fn followed_m(band: CloudBand, altitude_m: f32, cosine: f32, steps: u32, close_m: f32) -> f32 {
     let out_m = select(altitude_m - band.base_m, band.top_m - altitude_m, cosine > 0.0) / abs(cosine);
-    let reach_m = min(out_m, select(close_m, out_m, steps >= ALL_LIGHT_STEPS));
-    var depth = depth_within(band, p, altitude_m, towards, side * mu_s, steps, reach_m);
-    if reach_m < out_m {
-        let there_m = altitude_after(clouds.radius_m, altitude_m, side * mu_s, reach_m);
-        let there = light_depth(index, band, p + reach_m * towards, there_m, mu_s);
-        depth += select(there.behind, there.before, side > 0.0);
+    return min(out_m, select(close_m, out_m, steps >= ALL_LIGHT_STEPS));
+}
+
+// Optical depth of a band on both sides of a place: followed close to it, and beyond as it stands in the maps of shadows.
+fn depths_about(index: u32, band: CloudBand, p: vec3f, altitude_m: f32, mu_s: f32, steps: u32, close_m: f32) -> LightDepth {
+    let cosine = light_cosine(mu_s);
+    var near = vec2f(0.0);
+    var reach_m = vec2f(0.0);
+    if steps > 0u {
+        reach_m = vec2f(followed_m(band, altitude_m, cosine, steps, close_m), followed_m(band, altitude_m, -cosine, steps, close_m));
+        near.x = depth_within(band, p, altitude_m, view.sun, mu_s, steps, reach_m.x);
+        near.y = depth_within(band, p, altitude_m, -view.sun, -mu_s, steps, reach_m.y);
     }
-    return depth;
+    if steps >= ALL_LIGHT_STEPS {
+        return LightDepth(near.x, near.y);
+    }
+    let column = light_column(shade, shade_maps, linear_clamp, index, 0.5 * (band.base_m + band.top_m), clouds.radius_m, p, altitude_m, view.sun, mu_s);
+    let shares = (band.top_m - altitude_m - vec2f(cosine, -cosine) * reach_m) / (band.top_m - band.base_m);
+    let beyond = depths_beyond(column, shares.x, shares.y, mu_s);
+    return LightDepth(near.x + beyond.before, near.y + beyond.behind);
 }
 
 // Of a band, how much of its height has cloud as dense as where it is seen.
@@ -115,19 +128,13 @@ fn source_at(index: u32, p: vec3f, altitude_m: f32, extinction_per_m: f32, aroun
     let band = band_at(index);
     let mu_s = around.mu_s;
     let thickness = band.top_m - band.base_m;
-    var way: LightDepth;
     let low = 1.0 - smoothstep(LOW_LIGHT.x, LOW_LIGHT.y, abs(mu_s));
     let preview = clouds.light_steps == 0u;
     let near_steps = select(clouds.light_steps, select(1u, LOW_LIGHT_STEPS, low > 0.0), preview);
     // The light of heaps that are finer than a pixel is that of their mean.
     let steps = select(near_steps, 0u, pixel_m * clouds.base_inverse_scale_per_m > BLURRED.y);
-    if steps == 0u {
-        way = light_depth(index, band, p, altitude_m, mu_s);
-    } else {
-        let close_m = select(1.0, mix(CLOSE_BY, 1.0, low), preview) * REACH / clouds.base_inverse_scale_per_m;
-        way.before = depth_beside(index, band, p, altitude_m, mu_s, 1.0, steps, close_m);
-        way.behind = depth_beside(index, band, p, altitude_m, mu_s, -1.0, steps, close_m);
-    }
+    let close_m = select(1.0, mix(CLOSE_BY, 1.0, low), preview) * REACH / clouds.base_inverse_scale_per_m;
+    var way = depths_about(index, band, p, altitude_m, mu_s, steps, close_m);
     let h = clamp((altitude_m - band.base_m) / thickness, 0.0, 1.0);
     let beyond = beyond_maps(shade, along_sphere(clouds.radius_m, p, altitude_m));
     if beyond > 0.0 {
@@ -147,10 +154,6 @@ fn source_at(index: u32, p: vec3f, altitude_m: f32, extinction_per_m: f32, aroun
     let down = mix(deck.y, heap.y, band.leak);
     let direct = around.sun * exp(-over) * lit_source(lobes, way.before, way.behind, band.leak);
     return clouds.albedo * (direct + around.above * ambient_source(up, down) + around.below * ambient_source(down, up));
-}
-
-fn light_depth(index: u32, band: CloudBand, p: vec3f, altitude_m: f32, mu_s: f32) -> LightDepth {
-    return light_depth_within(shade, shade_maps, linear_clamp, index, band.base_m, band.top_m, clouds.radius_m, p, altitude_m, view.sun, mu_s);
 }
 
 // A thin layer: its light scattered once with the phase function, and the rest as a slab's.

@@ -47,15 +47,23 @@ impl CloudTextures {
 
     /// The first bindings of every shader that asks where there is cloud.
     pub(crate) fn binds<'a>(&'a self, clouds: &'a wgpu::Buffer) -> Vec<Bind<'a>> {
+        let mut binds = self.coarse_binds(clouds);
+        binds.extend([
+            Bind::Table(&self.detail.view),
+            Bind::Table(&self.curl.view),
+            Bind::Table(&self.sheet.view),
+        ]);
+        binds
+    }
+
+    /// Those of them that tell where there is cloud, but for its edges.
+    pub(crate) fn coarse_binds<'a>(&'a self, clouds: &'a wgpu::Buffer) -> Vec<Bind<'a>> {
         vec![
             Bind::Buffer(clouds),
             Bind::LinearRepeat,
             Bind::Table(&self.shape.view),
-            Bind::Table(&self.detail.view),
-            Bind::Table(&self.curl.view),
             Bind::Table(&self.first_weather.view),
             Bind::Table(&self.second_weather.view),
-            Bind::Table(&self.sheet.view),
         ]
     }
 }

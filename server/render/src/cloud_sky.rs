@@ -203,6 +203,7 @@ impl<'a> CloudSky<'a> {
             shear_m: (-along * clouds.wind.shear_m).as_vec2(),
             curl_inverse_scale_per_m: narrow(1.0 / curl_scale),
             curl_m: narrow(shape.curl_distortion_m),
+            layer_count: u32::try_from(self.volumes.len()).unwrap_or(0),
             band_count: u32::try_from(found.len()).unwrap_or(0),
             sheet_count: u32::try_from(self.sheets.len()).unwrap_or(0),
             weather_share,

@@ -19,6 +19,7 @@ use crate::{
         cloud_air::{CloudAir, CloudAirInputs},
         cloud_shadow::CloudShadow,
         cloud_shape::ShapeFrequencies,
+        cloud_volume::CloudVolume,
         ground_shadow::ShadowMap,
         multi_scattering::MultiScattering,
     },
@@ -43,6 +44,7 @@ use welkin_scene::{
 pub(crate) struct CloudPasses {
     noise: CloudNoise,
     pub(crate) aerial: Aerial,
+    volume: CloudVolume,
     shadow: CloudShadow,
     cloud_air: CloudAir,
     pub(crate) dome: CloudDomes,
@@ -62,6 +64,8 @@ pub(crate) struct Cloudscape {
     multi_scattering: Arc<MultiScattering>,
     pub(crate) aerial: Arc<AerialVolumes>,
     pub(crate) shadow: Arc<Table>,
+    /// In which the light's way is followed; a preview's single steps are exact, since its own is too coarse for them.
+    volume: Option<Arc<Table>>,
     /// What the air loses to clouds, where no shafts tell it.
     cloud_air: Option<Arc<Table>>,
     /// Of what stands on the ground, where that may fall on them.
@@ -128,6 +132,7 @@ impl Cloudscape {
             Bind::Buffer(&parts.ground_shadow.0),
             Bind::Buffer(&parts.ground_shadow.1),
             Bind::Table(self.cloud_air_view()),
+            Bind::Table(volume_view(self.volume.as_ref(), &self.textures)),
         ]);
         binds
     }
@@ -149,9 +154,14 @@ impl Cloudscape {
     }
 
     /// What the shaders that find the clouds' light are made for.
-    pub(crate) fn light_constants(&self) -> [(&'static str, f64); 3] {
+    pub(crate) fn light_constants(&self) -> [(&'static str, f64); 4] {
         let shaded = f64::from(u8::from(self.ground_shadow.is_some()));
-        [self.one_layer, ("SHADED", shaded), self.cloud_air()]
+        [
+            self.one_layer,
+            ("SHADED", shaded),
+            self.cloud_air(),
+            in_volume(self.volume.as_ref()),
+        ]
     }
 
     /// What the ground's shadows need.
@@ -171,6 +181,19 @@ impl Cloudscape {
     pub(crate) const fn fingerprint(&self) -> Fingerprint {
         self.made_from
     }
+}
+
+/// The volume, or something in its place.
+pub(crate) fn volume_view<'a>(
+    volume: Option<&'a Arc<Table>>,
+    textures: &'a CloudTextures,
+) -> &'a wgpu::TextureView {
+    volume.map_or(&textures.detail.view, |volume| &volume.view)
+}
+
+/// The shaders' constant that is 1 where there is one.
+pub(crate) fn in_volume(volume: Option<&Arc<Table>>) -> (&'static str, f64) {
+    ("VOLUME", f64::from(u8::from(volume.is_some())))
 }
 
 /// The light on the clouds.
@@ -224,6 +247,9 @@ fn slant(sun_cosine: f64) -> f32 {
     narrow((LEVEL_COSINE / sun_cosine.abs()).clamp(1.0, 4.0))
 }
 
+/// `ALL_LIGHT_STEPS` of `lib/cloud_source.wgsl`.
+const ALL_LIGHT_STEPS: u32 = 64;
+
 /// From this cosine on light counts as low.
 const LEVEL_COSINE: f64 = 0.3;
 
@@ -240,6 +266,7 @@ impl CloudPasses {
         Self {
             noise: CloudNoise::new(disk_cache),
             aerial: Aerial::new(),
+            volume: CloudVolume::new(),
             shadow: CloudShadow::new(),
             cloud_air: CloudAir::new(),
             dome: CloudDomes::new(),
@@ -316,7 +343,8 @@ impl CloudPasses {
         quality: Quality,
     ) -> Cloudscape {
         let scene = sky.scene;
-        let clouds = Part::new(&sky.uniform(fineness(quality)));
+        let uniform = sky.uniform(fineness(quality));
+        let clouds = Part::new(&uniform);
         let shade = sky.shade(&light.stand, scene.camera.position_m);
         let base_m = shade.base_m;
         let under_clouds = light.stand.altitude_m < f64::from(shade.base_m);
@@ -325,6 +353,11 @@ impl CloudPasses {
         let aerial = self
             .aerial
             .run(recorder, &tables.air, &light.stand, reads, tables.plan, quality);
+        // Whoever wants the light's way followed to its ends gets it exact.
+        let volume = (uniform.layer_count > 0 && uniform.light_steps < ALL_LIGHT_STEPS).then(|| {
+            let layers = (uniform.layer_count, sky.one_layer());
+            self.volume.run(recorder, &textures, &clouds, layers, quality)
+        });
         let (share, most_steps) = shadow_steps(quality);
         let slant = slant(light.stand.up.dot(light.stand.sun));
         let towards = ShadowUniform {
@@ -334,7 +367,7 @@ impl CloudPasses {
         };
         let shadow = self.shadow.run(
             recorder,
-            &textures,
+            (&textures, volume.as_ref()),
             (&clouds, &shade),
             towards,
             (sky.shade_count(), sky.one_layer()),
@@ -380,6 +413,7 @@ impl CloudPasses {
             multi_scattering: Arc::clone(&tables.multi_scattering),
             aerial,
             shadow,
+            volume: volume.filter(|_| matches!(quality, Quality::Final)),
             cloud_air,
             ground_shadow,
             base_m,

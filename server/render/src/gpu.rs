@@ -213,6 +213,10 @@ impl Gpu {
     pub(crate) const fn format(&self, texel: Texel) -> wgpu::TextureFormat {
         match texel {
             Texel::Float => self.table_format,
+            Texel::Single => match self.table_format {
+                wgpu::TextureFormat::Rgba32Float => wgpu::TextureFormat::R32Float,
+                half => half,
+            },
             Texel::Byte => wgpu::TextureFormat::Rgba8Unorm,
         }
     }

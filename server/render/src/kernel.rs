@@ -89,7 +89,8 @@ impl Kernel {
         let text = if gpu.table_format == wgpu::TextureFormat::Rgba32Float {
             shader.wgsl.into()
         } else {
-            shader.wgsl.replace("rgba32float", "rgba16float").into()
+            let half = shader.wgsl.replace("rgba32float", "rgba16float");
+            half.replace("<r32float", "<rgba16float").into()
         };
         let module = gpu.device.create_shader_module(wgpu::ShaderModuleDescriptor {
             label: Some(shader.name),

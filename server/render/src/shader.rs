@@ -23,12 +23,14 @@ pub(crate) enum Kind {
     WriteVolume(Texel),
 }
 
-/// What a texture that shaders write holds: four of these a texel.
+/// What a texture that shaders write holds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Texel {
-    /// 32-bit floats where the device filters them, else half floats.
+    /// Four 32-bit floats where the device filters them, else half floats.
     Float,
-    /// Bytes from 0 to 1.
+    /// One 32-bit float where the device filters them, else the first of four half floats: single ones are not written.
+    Single,
+    /// Four bytes from 0 to 1.
     Byte,
 }
 

@@ -3,6 +3,7 @@
 use super::Table;
 use crate::{
     cloud_noise::CloudTextures,
+    cloudscape::{in_volume, volume_view},
     gpu::Shape,
     kernel::{Bind, Recorder, Variants},
     memo::{Fingerprint, Memo},
@@ -37,7 +38,7 @@ impl CloudShadow {
     pub(crate) fn run(
         &mut self,
         recorder: &mut Recorder<'_>,
-        textures: &CloudTextures,
+        (textures, volume): (&CloudTextures, Option<&Arc<Table>>),
         (clouds, shade): (&Part, &Part),
         light: ShadowUniform,
         (count, one_layer): (u32, (&'static str, f64)),
@@ -50,6 +51,7 @@ impl CloudShadow {
             shade,
             &light,
             textures.fingerprint(),
+            volume.is_some(),
             quality,
         ));
         self.memo.get_or(made_from, || {
@@ -64,8 +66,18 @@ impl CloudShadow {
             let (clouds, shade) = (clouds.upload(gpu, "clouds"), shade.upload(gpu, "shade"));
             let light = light.upload(gpu, "shadow");
             let mut binds = textures.binds(&clouds);
-            binds.extend([Bind::Buffer(&shade), Bind::Buffer(&light), Bind::Table(&view)]);
-            recorder.dispatch(self.kernels.get(gpu, &[one_layer]), &binds, [side, side, count]);
+            binds.extend([
+                Bind::Buffer(&shade),
+                Bind::Buffer(&light),
+                Bind::LinearClamp,
+                Bind::Table(volume_view(volume, textures)),
+                Bind::Table(&view),
+            ]);
+            recorder.dispatch(
+                self.kernels.get(gpu, &[one_layer, in_volume(volume)]),
+                &binds,
+                [side, side, count],
+            );
             Table { view, made_from }
         })
     }

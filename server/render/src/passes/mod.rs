@@ -13,6 +13,7 @@ pub(crate) mod cloud_shape;
 pub(crate) mod cloud_sheet;
 pub(crate) mod cloud_view;
 pub(crate) mod cloud_view_light;
+pub(crate) mod cloud_volume;
 pub(crate) mod cloud_weather;
 pub(crate) mod exposure;
 pub(crate) mod ground_light;

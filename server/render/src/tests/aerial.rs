@@ -146,7 +146,7 @@ fn worst(altitude_m: f64, sun_deg: f64, quality: Quality) -> ((f64, String), (f6
         (14, view(&volumes.rayleigh)),
         (15, view(&volumes.mie)),
         (16, view(&volumes.multiple)),
-        (23, observer.as_entire_binding()),
+        (24, observer.as_entire_binding()),
     ];
     let found = evaluate(gpu, &shader::CLOUD_VIEW_LIGHT, &tabled, &rows, &binds);
     let (mut light, mut left) = ((0.0, String::new()), (0.0, String::new()));

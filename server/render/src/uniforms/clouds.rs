@@ -69,6 +69,7 @@ pub(crate) struct CloudsUniform {
     pub(crate) shear_m: Vec2,
     pub(crate) curl_inverse_scale_per_m: f32,
     pub(crate) curl_m: f32,
+    pub(crate) layer_count: u32,
     pub(crate) band_count: u32,
     pub(crate) sheet_count: u32,
     pub(crate) weather_share: f32,

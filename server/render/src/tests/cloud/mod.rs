@@ -7,6 +7,7 @@ mod far;
 mod grid;
 mod light;
 mod slab;
+mod volume;
 
 use crate::{
     cloud_noise::CloudTextures, cloud_sky::CloudSky, cloudscape::CloudPasses, gpu::Gpu, kernel::Bind,

@@ -108,6 +108,7 @@ fn clouds() {
             shear_m: vec2,
             curl_inverse_scale_per_m: f32,
             curl_m: f32,
+            layer_count: u32,
             band_count: u32,
             sheet_count: u32,
             weather_share: f32,
