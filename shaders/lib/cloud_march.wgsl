@@ -7,12 +7,16 @@ import package::lib::geometry::{altitude_after, shell_stretch};
 // Nothing is seen through what lets less through.
 const OPAQUE = 0.002;
 // Of one band, at the usual fineness.
-const MOST_STEPS = 1400u;
+const MOST_STEPS = 2000u;
 // After this many empty steps they grow by that factor.
 const EMPTY = 4u;
 const WIDE = 3.0;
-// Within a cloud's bulk, where the detail noise has its edges, they are closer.
-const CLOSER = 1.5;
+// Within a cloud's bulk, where the detail noise has its edges, they are closer by the first factor while all that lies there is
+// seen, and by the second where nothing is: an error counts by as much as is seen of it.
+const CLOSER = 3.0;
+const CLOSER_UNSEEN = 0.5;
+// The detail noise is blurred over this part of a step.
+const BLUR = 0.5;
 // A cloud that stands apart, or is longer than this part of its distance, counts by itself if it is more than this: between
 // two of them there may be sun.
 const LEAST_APART = 0.04;
@@ -76,11 +80,11 @@ fn march_band(index: u32, ray: CloudRay, start_m: f32, stop_m: f32) {
             break;
         }
         let usual_m = min(max(least_m, growth * t), longest_m);
-        let narrow_m = min(select(usual_m, usual_m / CLOSER, within), stop_m - t);
+        let narrow_m = min(select(usual_m, usual_m / mix(CLOSER_UNSEEN, CLOSER, through), within), stop_m - t);
         // Not quite at a cell's end: an edge that begins with the cell belongs to it.
         let at = t + mix(0.05, 0.95, ray.jitter) * narrow_m;
         let h = altitude_after(clouds.radius_m, view.altitude_m, ray.mu, at);
-        let density = band_extinction(band, place_at(at, ray.direction), h, Look(true, narrow_m, min(ray.spread, COARSEST_PIXEL) * at));
+        let density = band_extinction(band, place_at(at, ray.direction), h, Look(true, BLUR * narrow_m, min(ray.spread, COARSEST_PIXEL) * at));
         // The way walked back is gone in close steps, whatever is there.
         if density.bulk <= 0.0 && t >= until_m {
             within = false;
