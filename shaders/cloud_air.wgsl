@@ -2,7 +2,7 @@
 import package::lib::air::Air;
 import package::lib::cloud_air::cloud_air_direction;
 import package::lib::cloud_shade::{CloudShade, shade_depth};
-import package::lib::geometry::{altitude_after, cosine_after, distance_to_sphere, edge_cosine, shell_stretch};
+import package::lib::geometry::{altitude_after, cosine_after, distance_to_air, distance_to_sphere, edge_cosine, shell_stretch};
 import package::lib::light::View;
 import package::lib::phase::{cornette_shanks_phase, rayleigh_phase};
 import package::lib::shaft_ray::{LostSum, with_step};
@@ -42,7 +42,7 @@ fn cloud_air(@builtin(global_invocation_id) id: vec3u) {
     let nu = clamp(dot(direction, view.sun), -1.0, 1.0);
     let met_m = distance_to_sphere(air.radius_m, h0, mu);
     let end_m = select(1e12, met_m, met_m >= 0.0);
-    let air_from_m = max(select(0.0, distance_to_sphere(air.radius_m + air.top_m, h0 - air.top_m, mu), h0 > air.top_m), 0.0);
+    let air_from_m = distance_to_air(air.radius_m, air.top_m, h0, mu);
     let last = max(shade.count, 1u) - 1u;
     let top_m = shade.middles_m[last / 4u][last % 4u];
     let reach = shell_stretch(air.radius_m + top_m, h0 - top_m, mu, end_m);

@@ -5,7 +5,7 @@ import package::lib::airglow::{Airglow, airglow_radiance};
 import package::lib::camera::{Camera, sight_at};
 import package::lib::cloud_air::{lost_before, lost_in_air, scattered_under_clouds};
 import package::lib::cloud_shade::{CloudShade, shade_depth, slab_transmission};
-import package::lib::geometry::{PI, altitude_after, angle_of_cosine, cosine_after, distance_to_sphere, distance_to_top, edge_cosine, horizon_distance_squared, over_horizon};
+import package::lib::geometry::{PI, altitude_after, angle_of_cosine, distance_to_air, distance_to_sphere, distance_to_top, edge_cosine, horizon_distance_squared, over_horizon};
 import package::lib::harmonics::irradiance_towards;
 import package::lib::light::{View, scattered_radiance};
 import package::lib::scattering::{AirRay, March, Scattered, scatter_along};
@@ -189,8 +189,7 @@ fn air_before(direction: vec3f, distance_m: f32) -> Scattered {
     if METHOD == 0u {
         let met_m = distance_to_sphere(air.radius_m, view.altitude_m, mu);
         let entry = enter_air(air, observer, mu, nu, met_m >= 0.0, met_m);
-        let to_air_m = distance_to_sphere(air.radius_m + air.top_m, view.altitude_m - air.top_m, mu);
-        let from_m = select(0.0, to_air_m, view.altitude_m > air.top_m);
+        let from_m = distance_to_air(air.radius_m, air.top_m, view.altitude_m, mu);
         let ray = SkyViewRay(angle_of_cosine(cosine_of_azimuth(mu, view.mu_s, nu)), angle_of_cosine(mu), met_m >= 0.0, met_m);
         let way_m = clamp(distance_m - from_m, 0.0, max(entry.length_m, 0.0));
         return aerial_to(air, aerial_rayleigh, aerial_mie, aerial_multiple, linear_clamp, view.altitude_m, ray, way_m, max(entry.length_m, 0.0));
@@ -219,8 +218,7 @@ fn lost_under_clouds(direction: vec3f, distance_m: f32, light: Scattered) -> vec
     var lost = vec3f(0.0);
     if CLOUD_AIR {
         let in_air = lost_in_air(cloud_air_table, linear_clamp, direction, view.up, edge_cosine(air.radius_m, view.altitude_m));
-        let to_air_m = max(distance_to_sphere(air.radius_m + air.top_m, view.altitude_m - air.top_m, dot(direction, view.up)), 0.0);
-        let from_m = select(0.0, to_air_m, view.altitude_m > air.top_m);
+        let from_m = distance_to_air(air.radius_m, air.top_m, view.altitude_m, dot(direction, view.up));
         let once = Scattered(light.rayleigh, light.mie, vec3f(0.0), light.optical_depth);
         lost = lost_before(in_air, scattered_radiance(air, view, once, clamp(dot(direction, view.sun), -1.0, 1.0)), distance_m - from_m);
     }

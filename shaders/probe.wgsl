@@ -3,7 +3,7 @@ import package::lib::air::Air;
 import package::lib::airglow::{Airglow, airglow_radiance};
 import package::lib::cloud_air::{lost_before, lost_in_air};
 import package::lib::cloud_shade::{CloudShade, ground_shaded};
-import package::lib::geometry::{PI, angle_between, distance_to_sphere, edge_cosine};
+import package::lib::geometry::{PI, angle_between, distance_to_air, distance_to_sphere, edge_cosine};
 import package::lib::light::{UNSHADED, View, ground_radiance, scattered_radiance, sun_disc};
 import package::lib::moon::{Moon, moon_radiance, place_on_moon};
 import package::lib::scattering::{March, Scattered, scatter_along};
@@ -134,10 +134,7 @@ fn probe(@builtin(global_invocation_id) id: vec3u) {
         }
     }
     if CLOUD_AIR {
-        var air_from_m = 0.0;
-        if view.altitude_m > air.top_m {
-            air_from_m = max(distance_to_sphere(air.radius_m + air.top_m, view.altitude_m - air.top_m, mu), 0.0);
-        }
+        let air_from_m = distance_to_air(air.radius_m, air.top_m, view.altitude_m, mu);
         let in_air = lost_in_air(cloud_air_table, linear_clamp, direction, view.up, edge_cosine(air.radius_m, view.altitude_m));
         // Down to the ground ways differ by more than the table knows.
         between -= select(in_air.light, lost_before(in_air, once, ground_m - air_from_m), ground);

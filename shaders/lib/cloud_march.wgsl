@@ -65,6 +65,8 @@ fn march_band(index: u32, ray: CloudRay, start_m: f32, stop_m: f32) {
     // Of what is seen, what no node stands for yet: the share, where it is and its extinction by that share.
     var pending = vec3f(0.0);
     var begun_m = 0.0;
+    // Of that, what lies before the last gap.
+    var before_gap = vec3f(0.0);
     let most = u32(f32(MOST_STEPS) * max(clouds.fineness, 0.25));
     for (var k = 0u; k < most; k++) {
         let through = left * (1.0 - pending.x);
@@ -73,8 +75,12 @@ fn march_band(index: u32, ray: CloudRay, start_m: f32, stop_m: f32) {
         let spread = !within || t - begun_m > clamp(SPREAD * t, 0.06 * band.thickness_m, SPREAD_LONGEST * (stop_m - start_m));
         let apart = share_seen >= NODE_SHARE || (share_seen > least_share() && spread);
         if pending.x > 0.0 && (ends || apart) {
-            note(pending.x, pending.y / pending.x, index, pending.z / pending.x);
+            // Between two clouds there is none to be lit: both stand where the larger share is.
+            let after_gap = pending - before_gap;
+            let larger = select(before_gap, after_gap, after_gap.x >= before_gap.x);
+            note(pending.x, larger.y / larger.x, index, larger.z / larger.x);
             pending = vec3f(0.0);
+            before_gap = vec3f(0.0);
         }
         if ends {
             break;
@@ -98,6 +104,9 @@ fn march_band(index: u32, ray: CloudRay, start_m: f32, stop_m: f32) {
             until_m = t + narrow_m;
             t = max(t - select(1.0, WIDE, empty > EMPTY) * usual_m, start_m);
             empty = 0u;
+            if pending.x - before_gap.x > before_gap.x {
+                before_gap = pending;
+            }
             continue;
         }
         let share = (1.0 - pending.x) * (1.0 - exp(-density.value * narrow_m));
@@ -158,7 +167,7 @@ fn nearer(best: Next, index: u32, start_m: f32, stop_m: f32, t: f32) -> Next {
 }
 
 fn next_after(ray: CloudRay, t: f32) -> Next {
-    var best = Next(NOTHING, FARTHEST_M + max(ray.air_from_m, 0.0), 0.0);
+    var best = Next(NOTHING, FARTHEST_M + ray.air_from_m, 0.0);
     let h = view.altitude_m;
     for (var i = 0u; i < one_or(clouds.band_count); i++) {
         let band = band_at(i);

@@ -1,7 +1,7 @@
 // A ray through the clouds. Whoever imports from here binds what `lib/cloud.wgsl` names, and then this.
 import package::lib::air::Air;
 import package::lib::cloud::{clouds, lowest_cloud_m};
-import package::lib::geometry::{angle_of_cosine, distance_to_sphere, edge_cosine, over_horizon};
+import package::lib::geometry::{angle_of_cosine, distance_to_air, distance_to_sphere, edge_cosine, over_horizon};
 import package::lib::light::View;
 import package::lib::source::cosine_of_azimuth;
 import package::lib::view_ray::{Observer, enter_air};
@@ -53,8 +53,7 @@ fn cloud_ray(observer: Observer, direction: vec3f, jitter: f32, spread: f32) -> 
     let entry = enter_air(air, observer, mu, nu, ground, met_m);
     let end_m = select(ENDLESS_M, met_m, ground);
     let azimuth = angle_of_cosine(cosine_of_azimuth(mu, view.mu_s, nu));
-    let to_top_m = distance_to_sphere(air.radius_m + air.top_m, view.altitude_m - air.top_m, mu);
-    let from_m = select(0.0, to_top_m, view.altitude_m > air.top_m);
+    let from_m = distance_to_air(air.radius_m, air.top_m, view.altitude_m, mu);
     return CloudRay(direction, mu, nu, azimuth, angle_of_cosine(mu), ground, end_m, end_m, from_m, max(entry.length_m, 0.0), jitter, spread);
 }
 

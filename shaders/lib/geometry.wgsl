@@ -38,6 +38,11 @@ fn distance_to_sphere(radius_m: f32, altitude_m: f32, mu: f32) -> f32 {
     return c / (sqrt(discriminant) - b);
 }
 
+// Length to where a ray enters the air, whose top is at `top_m`; 0 from within, and for a ray that passes it by.
+fn distance_to_air(radius_m: f32, top_m: f32, altitude_m: f32, mu: f32) -> f32 {
+    return select(0.0, max(distance_to_sphere(radius_m + top_m, altitude_m - top_m, mu), 0.0), altitude_m > top_m);
+}
+
 // Length from inside the sphere of altitude `top_m` to it.
 fn distance_to_top(radius_m: f32, top_m: f32, altitude_m: f32, mu: f32) -> f32 {
     let b = (radius_m + altitude_m) * mu;

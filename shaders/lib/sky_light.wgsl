@@ -3,7 +3,7 @@ import package::lib::airglow::{Airglow, airglow_radiance};
 import package::lib::air::Air;
 import package::lib::camera::{Camera, sight_at};
 import package::lib::geometry::{
-    PI, angle_if_near, angle_of_cosine, distance_to_sphere, edge_cosine, edge_zenith_angle, horizon_distance_squared,
+    PI, angle_if_near, angle_of_cosine, distance_to_air, distance_to_sphere, edge_cosine, edge_zenith_angle, horizon_distance_squared,
 };
 import package::lib::phase::{cornette_shanks_phase, rayleigh_phase};
 import package::lib::cloud_air::{LostInAir, lost_before, lost_in_air};
@@ -199,9 +199,7 @@ fn light_towards(direction: vec3f, mu: f32, nu: f32) -> Light {
     var air_from_m = 0.0;
     if CLOUD_AIR {
         in_air = lost_in_air(cloud_air_table, linear_clamp, direction, view.up, edge_cosine(air.radius_m, view.altitude_m));
-        if view.altitude_m > air.top_m {
-            air_from_m = max(distance_to_sphere(air.radius_m + air.top_m, view.altitude_m - air.top_m, mu), 0.0);
-        }
+        air_from_m = distance_to_air(air.radius_m, air.top_m, view.altitude_m, mu);
     }
     // One side of the horizon, and where the pixel lies on it the other as well: a loop, since a software device runs
     // both sides of a branch.
