@@ -93,7 +93,9 @@ const REACH = 0.25;
 // stand as stripes on the clouds: from the second cosine down more of the way is followed, until the first.
 const CLOSE_BY = 0.4;
 const LOW_LIGHT = vec2f(0.05, 0.25);
+// Steps of a preview then, and how far those of both go, against `REACH`.
 const LOW_LIGHT_STEPS = 3u;
+const LOW_LIGHT_REACH = 2.0;
 
 // How far the steps go on one side: towards the light (`side` 1) or away from it (-1), `close_m` at most, and not out of the
 // band.
@@ -134,7 +136,7 @@ fn source_at(index: u32, p: vec3f, altitude_m: f32, extinction_per_m: f32, aroun
     let near_steps = select(clouds.light_steps, select(1u, LOW_LIGHT_STEPS, low > 0.0), preview);
     // The light of heaps that are finer than a pixel is that of their mean.
     let steps = select(near_steps, 0u, pixel_m * clouds.base_inverse_scale_per_m > BLURRED.y);
-    let close_m = select(1.0, mix(CLOSE_BY, 1.0, low), preview) * REACH / clouds.base_inverse_scale_per_m;
+    let close_m = mix(select(1.0, CLOSE_BY, preview), LOW_LIGHT_REACH, low) * REACH / clouds.base_inverse_scale_per_m;
     var way = depths_about(index, band, p, altitude_m, mu_s, steps, close_m);
     let h = clamp((altitude_m - band.base_m) / thickness, 0.0, 1.0);
     let beyond = beyond_maps(shade, along_sphere(clouds.radius_m, p, altitude_m));
