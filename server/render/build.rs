@@ -9,14 +9,15 @@ use std::{error::Error, fmt::Write as _, fs, path::Path};
 use wesl::{ManglerKind, Wesl};
 
 fn main() -> Result<(), Box<dyn Error>> {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../shaders");
+    // From the package, where Cargo runs this: a path kept from another checkout would be that one's.
+    let folder = Path::new("../../shaders");
     println!("cargo:rerun-if-changed={}", folder.display());
-    let mut names: Vec<String> = fs::read_dir(&folder)?
+    let mut names: Vec<String> = fs::read_dir(folder)?
         .filter_map(|entry| entry.ok()?.file_name().into_string().ok())
         .filter_map(|file| file.strip_suffix(".wgsl").map(str::to_owned))
         .collect();
     names.sort();
-    let mut linker = Wesl::new(&folder);
+    let mut linker = Wesl::new(folder);
     linker.set_mangler(ManglerKind::None).use_sourcemap(false);
     let mut code = String::new();
     for name in &names {

@@ -19,13 +19,18 @@ const CLOSER_UNSEEN = 0.5;
 const BLUR = 0.5;
 // A cloud that stands apart, or is longer than this part of its distance, counts by itself if it is more than this: between
 // two of them there may be sun.
-const LEAST_APART = 0.04;
+const LEAST_APART = 0.01;
 const SPREAD = 0.05;
 // Nor longer than this part of what the ray crosses of a band.
 const SPREAD_LONGEST = 0.33;
-// Nor less than this part of what each place that is left would have if all had as much: else a near fringe would take them
-// all, and one would stand for the sky behind it.
-const FAIR_SHARE = 0.5;
+// Nor less than this part of what each place that is left would have if all had as much, when some are kept for rims: else a
+// near fringe would take them all, and one would stand for the sky behind it.
+const FAIR_SHARE = 0.7;
+const FOR_RIMS = 2.0;
+// A rim, which has a gap behind it or is so many times as far behind as a cloud may be long, counts by itself if it has this
+// part: one in the sun before a dark cloud is seen however thin it is.
+const FAIR_SHARE_BEHIND = 0.1;
+const LEFT_BEHIND = 1.5;
 // A band is crossed in no fewer steps, at the usual fineness.
 const CROSSING = 24.0;
 // Over which way clouds fade, where they are asked to.
@@ -37,6 +42,8 @@ var<private> noted: Nodes;
 var<private> noted_count: u32;
 // What comes through all that is noted.
 var<private> left: f32;
+// How many places are kept for what lies beyond the band that is crossed.
+var<private> kept: u32;
 
 // `share` is of what comes through to it.
 fn note(share: f32, distance_m: f32, index: u32, extinction_per_m: f32) {
@@ -46,9 +53,16 @@ fn note(share: f32, distance_m: f32, index: u32, extinction_per_m: f32) {
     left -= seen;
 }
 
-fn least_share() -> f32 {
-    let places = f32(NODES) - f32(min(noted_count, NODES - 1u));
-    return max(LEAST_APART, FAIR_SHARE * left / places);
+// Without the places that are kept.
+fn places_left() -> u32 {
+    return NODES - min(noted_count + kept, NODES);
+}
+
+// Of what is seen, what a place takes at least; less if the ray has left it behind.
+fn least_share(behind: bool) -> f32 {
+    let places = f32(places_left());
+    let fair = select(FAIR_SHARE / max(places - FOR_RIMS, 0.5), FAIR_SHARE_BEHIND / max(places, 1.0), behind);
+    return max(LEAST_APART, fair * left);
 }
 
 fn march_band(index: u32, ray: CloudRay, start_m: f32, stop_m: f32) {
@@ -72,8 +86,11 @@ fn march_band(index: u32, ray: CloudRay, start_m: f32, stop_m: f32) {
         let through = left * (1.0 - pending.x);
         let ends = t >= stop_m || through <= OPAQUE || k + 1u == most;
         let share_seen = left * pending.x;
-        let spread = !within || t - begun_m > clamp(SPREAD * t, 0.06 * band.thickness_m, SPREAD_LONGEST * (stop_m - start_m));
-        let apart = share_seen >= NODE_SHARE || (share_seen > least_share() && spread);
+        let spread_m = clamp(SPREAD * t, 0.06 * band.thickness_m, SPREAD_LONGEST * (stop_m - start_m));
+        let behind = !within || pending.x * t - pending.y > LEFT_BEHIND * spread_m * pending.x;
+        let enough = share_seen >= NODE_SHARE || (share_seen > least_share(behind) && (behind || t - begun_m > spread_m));
+        // What is left of the band has the last place.
+        let apart = enough && places_left() > 1u;
         if pending.x > 0.0 && (ends || apart) {
             // Between two clouds there is none to be lit: both stand where the larger share is.
             let after_gap = pending - before_gap;
@@ -156,6 +173,8 @@ struct Next {
 }
 
 const NOTHING = 1000u;
+const KEPT_EACH = 2u;
+const MOST_KEPT = 4u;
 // Sheets are numbered after the bands.
 const FIRST_SHEET = 8u;
 
@@ -203,6 +222,7 @@ fn march_clouds(ray: CloudRay) -> Nodes {
         if next.index == NOTHING {
             break;
         }
+        kept = min(KEPT_EACH * (max(clouds.band_count + clouds.sheet_count, k + 1u) - k - 1u), MOST_KEPT);
         if next.index < FIRST_SHEET {
             march_band(next.index, ray, next.start_m, next.stop_m);
         } else {
