@@ -84,8 +84,8 @@ struct CloudFrame {
 @group(0) @binding(19) var<storage, read> seen: array<PackedGround>;
 // Harmonics of the sky's light over the ground, of the sun's and then of the moon's.
 @group(0) @binding(20) var<storage, read> sky_harmonics: array<vec4f>;
-// Radiance in R, G, B and how far away it is; where nothing stands, what the sky loses to shafts, and -1 less the share of it
-// that is lost before the horizon.
+// Radiance in R, G, B and how far away it is; where nothing stands, what the sky loses to shafts, and -1 less the share of what
+// clear air before the horizon sends that is lost.
 @group(0) @binding(21) var<storage, read_write> lit_ground: array<vec4f>;
 @group(0) @binding(22) var<uniform> settings: LightSettings;
 // Of the lattice, or of each direction.
@@ -282,7 +282,7 @@ fn lost_at(pixel: vec2u, end_m: f32) -> Lost {
 
 const ENDLESS_M = 1e12;
 
-// Of what a ray loses that runs along the horizon, the share that is before it; elsewhere nobody asks.
+// Of what clear air sends from before the horizon, the share that is lost; elsewhere nobody asks.
 fn share_before_horizon(direction: vec3f, less: Lost) -> f32 {
     let mu = dot(direction, view.up);
     let horizon_mu = edge_cosine(air.radius_m, view.altitude_m);
@@ -292,7 +292,7 @@ fn share_before_horizon(direction: vec3f, less: Lost) -> f32 {
         var light = air_before(direction, edge_m);
         light.multiple = vec3f(0.0);
         let sent = scattered_radiance(air, view, light, clamp(dot(direction, view.sun), -1.0, 1.0));
-        share = dot(lost_of(less, sent, edge_m), vec3f(1.0)) / max(dot(less.light, vec3f(1.0)), 1e-30);
+        share = dot(lost_of(less, sent, edge_m), vec3f(1.0)) / max(dot(sent, vec3f(1.0)), 1e-30);
     }
     return share;
 }

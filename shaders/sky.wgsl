@@ -7,8 +7,8 @@ import package::lib::even::{cell_evenness, is_even_run};
 import package::lib::geometry::{angle_if_near, angle_of_cosine, edge_cosine};
 import package::lib::picture::{Exposure, Tone, packed_pixel, picture_pixel, shown_colour};
 import package::lib::sky_light::{
-    CLOUDS, Light, MOON, PROJECTION, air, camera, cloud_frame, corona_towards, disc_in_pixel, light_towards, linear_clamp,
-    moon, moon_in_pixel, radiance_of, shade, share_above, view,
+    CLOUDS, Light, MOON, PROJECTION, air, camera, changed_under_clouds, cloud_frame, corona_towards, disc_in_pixel, light_towards, linear_clamp,
+    moon, moon_in_pixel, radiance_of, shade, share_above, single_of, view,
 };
 
 // 0: every pixel; 1: the lattice; 2: the finer lattice; 3: the pixels between.
@@ -58,7 +58,7 @@ struct Tile {
 @group(0) @binding(26) var<storage, read> dome_pages: array<u32>;
 @group(0) @binding(27) var dome_seen: texture_2d<f32>;
 // Of each pixel of the tile: radiance and distance of what stands on the ground; or what the sky loses to shafts, and -1
-// less the share of it that is lost before the horizon.
+// less the share of what clear air before the horizon sends that is lost.
 @group(0) @binding(28) var<storage, read> lit_ground: array<vec4f>;
 // Six vectors a corner of the dome, as `Nodes` has them.
 @group(0) @binding(29) var<storage, read> dome_nodes: array<vec4f>;
@@ -114,17 +114,20 @@ fn with_clouds(behind: vec3f, place: vec2u, direction: vec3f) -> vec3f {
 }
 
 // A pixel that the horizon crosses, seen from under the clouds: they stand before the sky's share of it alone.
-fn on_horizon(direction: vec3f, above: f32, disc: vec3f, lost: vec3f, lost_to_ground: vec3f, place: vec2u) -> vec3f {
+fn on_horizon(direction: vec3f, above: f32, disc: vec3f, lost: vec3f, lost_to_ground: f32, place: vec2u) -> vec3f {
     let off = edge_cosine(air.radius_m, view.altitude_m) - dot(direction, view.up);
     let sky = normalize(direction + (off + 0.6 * camera.pixel_angle) * view.up);
     let ground = normalize(direction + (off - 0.6 * camera.pixel_angle) * view.up);
     let sky_nu = clamp(dot(sky, view.sun), -1.0, 1.0);
     let ground_nu = clamp(dot(ground, view.sun), -1.0, 1.0);
     let behind = max(radiance_of(light_towards(sky, dot(sky, view.up), sky_nu), sky_nu, disc) - lost, vec3f(0.0));
-    let clear = radiance_of(light_towards(ground, dot(ground, view.up), ground_nu), ground_nu, vec3f(0.0));
-    var below = max(clear - lost_to_ground, vec3f(0.0));
+    let clear = light_towards(ground, dot(ground, view.up), ground_nu);
+    let lost_before = lost_to_ground * single_of(clear.rayleigh, clear.mie, ground_nu);
+    var below = max(radiance_of(clear, ground_nu, vec3f(0.0)) - lost_before, vec3f(0.0));
     if DOME {
         below = with_clouds(below, place, ground);
+    } else {
+        below = max(below + changed_under_clouds(ground, dot(ground, view.up), ground_nu), vec3f(0.0));
     }
     return mix(below, with_clouds(behind, place, sky), above);
 }
@@ -200,7 +203,7 @@ fn write_run(first: vec2u, begin: u32, end: u32) {
             var seen: vec3f;
             let above = share_above(angle_of_cosine(dot(sight.direction, view.up)));
             if CLOUDS && above > 0.0 && above < 1.0 && view.altitude_m < shade.base_m {
-                seen = on_horizon(sight.direction, above, own, lost, (-1.0 - before.w) * lost, vec2u(x, y));
+                seen = on_horizon(sight.direction, above, own, lost, -1.0 - before.w, vec2u(x, y));
             } else {
                 seen = with_clouds(max(radiance_of(light, nu, own) - lost, vec3f(0.0)), vec2u(x, y), sight.direction);
             }

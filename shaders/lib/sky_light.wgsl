@@ -6,7 +6,7 @@ import package::lib::geometry::{
     PI, angle_if_near, angle_of_cosine, distance_to_air, distance_to_sphere, edge_cosine, edge_zenith_angle, horizon_distance_squared,
 };
 import package::lib::phase::{cornette_shanks_phase, rayleigh_phase};
-import package::lib::cloud_air::{LostInAir, lost_before, lost_in_air};
+import package::lib::cloud_air::{LostInAir, lost_before, lost_in_air, scattered_under_clouds};
 import package::lib::cloud_shade::{CloudShade, ground_shaded};
 import package::lib::light::{UNSHADED, View, disc_radiance, ground_radiance, scattered_radiance};
 import package::lib::moon::{Moon, corona, moon_radiance, place_on_moon};
@@ -263,4 +263,14 @@ fn single_of(rayleigh: vec3f, mie: vec3f, nu: f32) -> vec3f {
 
 fn radiance_of(light: Light, nu: f32, disc: vec3f) -> vec3f {
     return single_of(light.rayleigh, light.mie, nu) + light.even + light.left * disc;
+}
+
+// What clouds add to the light of the air under them, up to the ground, or take from it, but for what it loses to shadows. Whoever
+// has clouds before the ground has it with them.
+fn changed_under_clouds(direction: vec3f, mu: f32, nu: f32) -> vec3f {
+    let met_m = distance_to_sphere(air.radius_m, view.altitude_m, mu);
+    let ray = SkyViewRay(azimuth_from(view, mu, nu), angle_of_cosine(mu), true, met_m);
+    let light = light_in_air(ray, mu, nu);
+    let gained = scattered_under_clouds(air, view, shade, transmittance_table, linear_clamp, exp(-light.optical_depth));
+    return gained - (1.0 - shade.diffuse_left) * view.sun_irradiance * light.multiple;
 }
