@@ -66,6 +66,31 @@ fn no_bright_line_stands_between_a_deck_and_the_ground() {
     }
 }
 
+/// Of a pixel that the horizon crosses a share is sky and a share is ground, so that its colour lies between theirs.
+#[test]
+fn the_horizon_has_a_colour_between_the_decks_and_the_grounds() {
+    // Rows are 0.11° high, and the horizon lies 0.045° under the level.
+    for (elevation_deg, crossed) in [(0.0, 12), (0.0275, 12), (0.055, 12), (0.0825, 13)] {
+        let changes = json!({
+            "camera": {"direction": {"azimuth_deg": 180, "elevation_deg": elevation_deg},
+                       "projection": {"kind": "perspective", "vertical_fov_deg": 2.64}},
+        });
+        let deck = serde_json::to_value(deck()).unwrap();
+        let scene = Scene::from_value(&merged(deck, &changes)).unwrap();
+        let seen = seen_as(order(&scene, (16, 24), Quality::Final, Output::Linear));
+        let blue = |row: usize| {
+            let [r, g, b] = [0, 1, 2].map(|c| (0..16).map(|x| seen.values[16 * row + x][c]).sum::<f64>());
+            b / (r + g + b)
+        };
+        let (sky, here, ground) = (blue(crossed - 4), blue(crossed), blue(crossed + 5));
+        // From row to row the deck's own colour changes by less than this. With what clear air scatters more than once it was 0.39.
+        assert!(
+            here < sky.max(ground) + 0.01,
+            "{elevation_deg}°: {sky} {here} {ground}"
+        );
+    }
+}
+
 /// Shafts find what the air loses ray by ray, else it stands in a table: under a deck that lets no sunlight through, both must
 /// find the same, and that before clouds as before the sky.
 #[test]
