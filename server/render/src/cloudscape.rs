@@ -3,15 +3,14 @@
 
 use crate::{
     cloud_dome::CloudDomes,
+    cloud_light::CloudLight,
     cloud_noise::{CloudNoise, CloudTextures},
     cloud_sky::CloudSky,
     error::Error,
     gpu::{Gpu, Shape},
     groundscape::Groundscape,
     kernel::{Bind, Recorder},
-    lights::Lights,
     memo::{Fingerprint, Memo},
-    night::Night,
     noise_cache::DiskCache,
     passes::{
         Table,
@@ -19,14 +18,14 @@ use crate::{
         cloud_air::{CloudAir, CloudAirInputs},
         cloud_shadow::CloudShadow,
         cloud_shape::ShapeFrequencies,
-        cloud_volume::CloudVolume,
+        cloud_volume::{CloudVolume, in_volume, volume_view},
         ground_shadow::ShadowMap,
         multi_scattering::MultiScattering,
     },
     prepared::Tables,
     shader::Texel,
     uniforms::{
-        Part, Standpoint,
+        Part,
         clouds::{CloudFrameUniform, ShadowUniform},
         ground::GroundShadowUniform,
         narrow,
@@ -180,55 +179,6 @@ impl Cloudscape {
 
     pub(crate) const fn fingerprint(&self) -> Fingerprint {
         self.made_from
-    }
-}
-
-/// The volume, or something in its place.
-pub(crate) fn volume_view<'a>(
-    volume: Option<&'a Arc<Table>>,
-    textures: &'a CloudTextures,
-) -> &'a wgpu::TextureView {
-    volume.map_or(&textures.detail.view, |volume| &volume.view)
-}
-
-/// The shaders' constant that is 1 where there is one.
-pub(crate) fn in_volume(volume: Option<&Arc<Table>>) -> (&'static str, f64) {
-    ("VOLUME", f64::from(u8::from(volume.is_some())))
-}
-
-/// The light on the clouds.
-pub(crate) struct CloudLight<'a> {
-    pub(crate) stand: Standpoint,
-    pub(crate) view: &'a Part,
-    /// True where there are clouds.
-    pub(crate) clouded: bool,
-    /// True where shafts tell which air they keep it from.
-    pub(crate) shafted: bool,
-}
-
-impl<'a> CloudLight<'a> {
-    /// The sun, or at night the moon.
-    pub(crate) fn new(
-        stand: &Standpoint,
-        night: &Night,
-        lights: &'a Lights,
-        (clouded, shafted): (bool, bool),
-    ) -> Self {
-        let by_moon = night.moon.filter(|moon| moon.counts > 0.0 && stand.is_night());
-        by_moon.zip(lights.moon_view()).map_or(
-            Self {
-                stand: *stand,
-                view: lights.view(false),
-                clouded,
-                shafted,
-            },
-            |(moon, view)| Self {
-                stand: moon.stand(stand),
-                view,
-                clouded,
-                shafted,
-            },
-        )
     }
 }
 

@@ -3,8 +3,9 @@
 use crate::{
     camera::CameraUniform,
     cloud_dome::DomeView,
+    cloud_light::CloudLight,
     cloud_sky::CloudSky,
-    cloudscape::{CloudLight, CloudPasses},
+    cloudscape::CloudPasses,
     cpu::airglow::NightLight,
     error::Error,
     gpu::Gpu,

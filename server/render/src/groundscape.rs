@@ -1,7 +1,8 @@
 //! What stands ready before the ground in a frame is looked at: its shape, its shadow, the light of the sky on it.
 
 use crate::{
-    cloudscape::{CloudLight, Cloudscape},
+    cloud_light::CloudLight,
+    cloudscape::Cloudscape,
     error::Error,
     gpu::Gpu,
     ground::{Shapes, Terrains, skin, wind_m_s},

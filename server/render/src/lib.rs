@@ -7,6 +7,7 @@ mod area;
 mod camera;
 mod catalogue;
 mod cloud_dome;
+mod cloud_light;
 mod cloud_noise;
 mod cloud_sky;
 mod cloudscape;

@@ -5,8 +5,8 @@ use super::{
     kept::{airglow, moon_face},
 };
 use crate::{
+    cloud_light::CloudLight,
     cloud_sky::CloudSky,
-    cloudscape::CloudLight,
     error::Error,
     kernel::Recorder,
     lights::Lights,

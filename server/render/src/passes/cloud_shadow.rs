@@ -1,9 +1,11 @@
 //! Optical depth of each band and sheet of clouds towards the light.
 
-use super::Table;
+use super::{
+    Table,
+    cloud_volume::{in_volume, volume_view},
+};
 use crate::{
     cloud_noise::CloudTextures,
-    cloudscape::{in_volume, volume_view},
     gpu::Shape,
     kernel::{Bind, Recorder, Variants},
     memo::{Fingerprint, Memo},

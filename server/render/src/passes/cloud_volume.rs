@@ -65,3 +65,16 @@ impl CloudVolume {
         })
     }
 }
+
+/// The volume, or something in its place.
+pub(crate) fn volume_view<'a>(
+    volume: Option<&'a Arc<Table>>,
+    textures: &'a CloudTextures,
+) -> &'a wgpu::TextureView {
+    volume.map_or(&textures.detail.view, |volume| &volume.view)
+}
+
+/// The shaders' constant that is 1 where there is one.
+pub(crate) fn in_volume(volume: Option<&Arc<Table>>) -> (&'static str, f64) {
+    ("VOLUME", f64::from(u8::from(volume.is_some())))
+}

@@ -3,8 +3,8 @@
 use super::{cloudy, passes};
 use crate::{
     camera::CameraUniform,
+    cloud_light::CloudLight,
     cloud_sky::CloudSky,
-    cloudscape::CloudLight,
     gpu::Gpu,
     kernel::Recorder,
     passes::{cloud_view::CloudView, cloud_view_light::CloudViewLight},
