@@ -256,8 +256,21 @@ fn radiance_towards(direction: vec3f, found: SeenGround) -> vec3f {
     return between + exp(-light.optical_depth) * seen_there;
 }
 
+const ENDLESS_M = 1e12;
+
+// What clear air sends from before a distance after one scattering.
+fn sent_once(direction: vec3f, distance_m: f32) -> vec3f {
+    var light = air_before(direction, distance_m);
+    light.multiple = vec3f(0.0);
+    return scattered_radiance(air, view, light, clamp(dot(direction, view.sun), -1.0, 1.0));
+}
+
+// The lattice's rays end elsewhere by more than this factor, as just under the horizon, where the ground is at 200 m in one place
+// and at 1 km in the next pixel.
+const ELSEWHERE = 1.1;
+
 // What a ray through a pixel of the frame loses to shafts.
-fn lost_at(pixel: vec2u, end_m: f32) -> Lost {
+fn lost_at(pixel: vec2u, direction: vec3f, end_m: f32) -> Lost {
     // The lattice may begin left of the frame, where it wraps round.
     let place = vec2f(pixel - settings.first_place_px) / f32(settings.grain);
     let nearest = vec2i(round(place));
@@ -265,6 +278,9 @@ fn lost_at(pixel: vec2u, end_m: f32) -> Lost {
     var first = vec4f(0.0);
     var second = vec4f(0.0);
     var weights = 0.0;
+    // Of rays that were looked along up to their ends, and where that was.
+    var ended = 0.0;
+    var ends_m = 0.0;
     for (var k = 0; k < 9; k++) {
         let at = nearest + vec2i(k % 3, k / 3) - 1;
         let there = lost[u32(at.y) * settings.places_across + u32(at.x)];
@@ -272,15 +288,25 @@ fn lost_at(pixel: vec2u, end_m: f32) -> Lost {
         sum.light += weight * there.light;
         sum.from_m += weight * there.from_m;
         sum.to_m += weight * there.to_m;
+        let to_end = select(0.0, weight, there.to_m > 0.99 * there.end_m);
+        ended += to_end;
+        ends_m += to_end * there.end_m;
         first += weight * unpack4x8unorm(there.first);
         second += weight * unpack4x8unorm(there.second);
         weights += weight;
     }
     let share = 1.0 / max(weights, 1e-12);
-    return Lost(share * sum.light, end_m, share * sum.from_m, share * sum.to_m, pack4x8unorm(share * first), pack4x8unorm(share * second));
+    var light = share * sum.light;
+    var to_m = share * sum.to_m;
+    if ended > 0.5 * weights && end_m < ENDLESS_M {
+        let ended_m = ends_m / ended;
+        if max(end_m / ended_m, ended_m / end_m) > ELSEWHERE {
+            light *= sent_once(direction, end_m) / max(sent_once(direction, ended_m), vec3f(1e-30));
+            to_m = end_m;
+        }
+    }
+    return Lost(light, end_m, share * sum.from_m, to_m, pack4x8unorm(share * first), pack4x8unorm(share * second));
 }
-
-const ENDLESS_M = 1e12;
 
 // Of what clear air sends from before the horizon, the share that is lost; elsewhere nobody asks.
 fn share_before_horizon(direction: vec3f, less: Lost) -> f32 {
@@ -289,9 +315,7 @@ fn share_before_horizon(direction: vec3f, less: Lost) -> f32 {
     var share = 0.0;
     if abs(mu - horizon_mu) < camera.pixel_angle {
         let edge_m = sqrt(horizon_distance_squared(air.radius_m, view.altitude_m));
-        var light = air_before(direction, edge_m);
-        light.multiple = vec3f(0.0);
-        let sent = scattered_radiance(air, view, light, clamp(dot(direction, view.sun), -1.0, 1.0));
+        let sent = sent_once(direction, edge_m);
         share = dot(lost_of(less, sent, edge_m), vec3f(1.0)) / max(dot(sent, vec3f(1.0)), 1e-30);
     }
     return share;
@@ -311,7 +335,7 @@ fn write(i: u32, direction: vec3f, pixel: vec2u) {
         if LIST {
             less = lost[i];
         } else {
-            less = lost_at(pixel, end_m);
+            less = lost_at(pixel, direction, end_m);
         }
         lost_to_shafts[i] = less;
         if found.distance_m >= 0.0 {
