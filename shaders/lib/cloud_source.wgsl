@@ -134,12 +134,12 @@ fn source_at(index: u32, p: vec3f, altitude_m: f32, extinction_per_m: f32, aroun
     let low = 1.0 - smoothstep(LOW_LIGHT.x, LOW_LIGHT.y, abs(mu_s));
     let preview = clouds.light_steps == 0u;
     let near_steps = select(clouds.light_steps, select(1u, LOW_LIGHT_STEPS, low > 0.0), preview);
+    let beyond = beyond_maps(shade, along_sphere(clouds.radius_m, p, altitude_m));
     // The light of heaps that are finer than a pixel is that of their mean.
-    let steps = select(near_steps, 0u, pixel_m * clouds.base_inverse_scale_per_m > BLURRED.y);
+    let steps = select(near_steps, 0u, beyond >= 1.0 || pixel_m * clouds.base_inverse_scale_per_m > BLURRED.y);
     let close_m = mix(select(1.0, CLOSE_BY, preview), LOW_LIGHT_REACH, low) * REACH / clouds.base_inverse_scale_per_m;
     var way = depths_about(index, band, p, altitude_m, mu_s, steps, close_m);
     let h = clamp((altitude_m - band.base_m) / thickness, 0.0, 1.0);
-    let beyond = beyond_maps(shade, along_sphere(clouds.radius_m, p, altitude_m));
     if beyond > 0.0 {
         // The place's own density stands for the band's.
         let out = EVEN_FILLING * extinction_per_m * thickness / abs(light_cosine(mu_s));

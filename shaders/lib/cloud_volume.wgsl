@@ -26,21 +26,18 @@ fn volume_coordinate(index: u32, count: u32, along_m: vec2f, share: f32, levels:
 fn coarse_extinction(volume: texture_3d<f32>, linear_clamp: sampler, band: CloudBand, p: vec3f, altitude_m: f32) -> f32 {
     if VOLUME {
         let along_m = along_sphere(clouds.radius_m, p, altitude_m);
-        let d = abs(along_m - clouds.place_m.xy);
-        if max(d.x, d.y) < VOLUME_REACH_M {
-            let depth = textureDimensions(volume).z;
-            let count = one_or(clouds.layer_count);
-            var sum = 0.0;
-            for (var i = 0u; i < one_or(band.count); i++) {
-                let layer = layer_at(band.first + i);
-                let share = (altitude_m - layer.base_m) * layer.inverse_thickness_per_m;
-                if share > 0.0 && share < 1.0 {
-                    let at = volume_coordinate(band.first + i, count, along_m, share, f32(depth / count));
-                    sum += textureSampleLevel(volume, linear_clamp, at, 0.0).r;
-                }
+        let depth = textureDimensions(volume).z;
+        let count = one_or(clouds.layer_count);
+        var sum = 0.0;
+        for (var i = 0u; i < one_or(band.count); i++) {
+            let layer = layer_at(band.first + i);
+            let share = (altitude_m - layer.base_m) * layer.inverse_thickness_per_m;
+            if share > 0.0 && share < 1.0 {
+                let at = volume_coordinate(band.first + i, count, along_m, share, f32(depth / count));
+                sum += textureSampleLevel(volume, linear_clamp, at, 0.0).r;
             }
-            return sum;
         }
+        return sum;
     }
     return band_extinction(band, p, altitude_m, COARSE).value;
 }
