@@ -23,6 +23,9 @@ const SHADE_REACH_M: f64 = 120_000.0;
 /// whose noise is never under a half.
 const MEAN_FILLING: [f64; 2] = [0.2, 0.45];
 
+/// What full rain adds to the extinction of a place, in shares of it: that of `densest_per_m` in `lib/cloud.wgsl`.
+const RAIN_DARKENS: f64 = 2.0;
+
 /// As the shader closes a deck: 0 up to a coverage of 0.85, 1 where all is covered.
 fn closed(coverage: f64) -> f64 {
     let x = ((coverage - 0.85) / 0.15).clamp(0.0, 1.0);
@@ -257,28 +260,24 @@ impl<'a> CloudSky<'a> {
         let asymmetry = f64::from(lobes(&self.clouds.phase).asymmetry());
         let mu = stand.up.dot(stand.sun).max(0.05);
         let (mut direct, mut diffuse) = (1.0, 1.0);
-        let columns = self
-            .volumes
-            .iter()
-            .map(|(v, coverage, extinction)| {
-                (
-                    *coverage,
-                    mean_filling(*coverage) * extinction * (v.top_m - v.base_m),
-                )
-            })
-            .chain(self.sheets.iter().map(|(sheet, coverage)| {
-                (
-                    *coverage,
-                    0.3 * sheet.densest_optical_depth() * self.clouds.density,
-                )
-            }));
-        // Of a map that is the same everywhere the coverage is known; of others it is the threshold's.
+        // Of a map that is the same everywhere coverage and rain are known; of others coverage is the threshold's, and it rains
+        // in few places.
         let everywhere = |map: &PlainMap| match map {
-            PlainMap::Uniform(even) => even.coverage,
-            PlainMap::Procedural(_) | PlainMap::Asset(_) => 1.0,
+            PlainMap::Uniform(even) => [even.coverage, even.rain],
+            PlainMap::Procedural(_) | PlainMap::Asset(_) => [1.0, 0.0],
         };
         let (first, second, share) = self.clouds.weather_map.blended();
-        let there = (1.0 - share) * everywhere(&first) + share * everywhere(&second);
+        let (first, second) = (everywhere(&first), everywhere(&second));
+        let [there, rain] = [0, 1].map(|i| (1.0 - share) * first[i] + share * second[i]);
+        let darker = 1.0 + RAIN_DARKENS * self.clouds.precipitation * rain;
+        let volumes = self.volumes.iter().map(|(v, coverage, extinction)| {
+            let depth = mean_filling(*coverage) * extinction * (v.top_m - v.base_m);
+            (*coverage, darker * depth)
+        });
+        let columns = volumes.chain(self.sheets.iter().map(|(sheet, coverage)| {
+            let depth = 0.3 * sheet.densest_optical_depth() * self.clouds.density;
+            (*coverage, depth)
+        }));
         for (coverage, depth) in columns {
             let coverage = coverage * there;
             direct *= 1.0 - coverage * (1.0 - (-depth / mu).exp());
