@@ -1,6 +1,7 @@
 // Light in a cloud, and out of it.
 import package::lib::geometry::PI;
 import package::lib::cloud::clouds;
+import package::lib::cloud_shade::slab_transmission;
 
 fn henyey_greenstein(nu: f32, g: f32) -> f32 {
     let base = max((1.0 - g) * (1.0 - g) + 2.0 * g * (1.0 - nu), 1e-8);
@@ -67,52 +68,74 @@ fn exponential_sum(x: f32, first: vec4f, second: vec4f) -> f32 {
 // Photons that were scattered n times by small angles have gone e^{-τ} (gτ)^n / n! of the way's share: their sum is
 // e^{-(1-g)τ}, light that similarity counts as unscattered, and their lobes are the silver lining, wider and fainter the
 // deeper it comes from. The rest is diffuse: in the diffusion limit, with Eddington's closure and Marshak's boundaries, a
-// slab of depth T = (1-g)(before + behind) without absorption holds U(τ) = C₀ - 3 C₁ τ - 3 E e^{-τ},
-// C₁ = E (5 - e^{-T})/(4 + 3T), C₀ = 5E - 2C₁.
+// slab of vertical depth T without absorption, all depths times 1-g, holds U(τ) = C₀ - 3 K τ - 3μ² E e^{-τ/μ} under light that
+// falls at a cosine μ; K = μ E (2 + 3μ + (2 - 3μ) e^{-T/μ})/(4 + 3T) is what goes through all of it, C₀ = (3μ² + 2μ) E - 2K.
 //
 // That slab has no end; a heap loses light at its sides. `leak` is 0 for the slab and 1 for the heap: see `leaking`.
-fn lit_source(lobes: Lobes, before: f32, behind: f32, leak: f32) -> vec3f {
-    let g = clouds.asymmetry;
-    let x = g * before * clouds.albedo.g;
-    let straight = exp(-before);
-    var sum = straight * exponential_sum(x, lobes.first, lobes.second);
-    let passed = straight * exponential_sum(x, lobes.first_counts, lobes.second_counts);
-    let near = (1.0 - g) * before;
-    let whole = near + (1.0 - g) * behind;
-    let forward = exp(-near);
-    // Of the forward light, what the lobes left out is even.
-    sum += max(forward - passed, 0.0) / (4.0 * PI);
+//
+// Depths are those of the light's way, `cosine` is its own with the slab's upright. A heap has no slant.
+fn lit_source(lobes: Lobes, cosine: f32, before: f32, behind: f32, leak: f32) -> vec3f {
+    let upright = mix(cosine, 1.0, leak);
+    let even = (1.0 - clouds.asymmetry) * upright;
+    let near = even * before;
+    let whole = even * (before + behind);
     var diffuse = 0.0;
     if leak <= 0.0 {
-        let c1 = (5.0 - exp(-whole)) / (4.0 + 3.0 * whole);
-        diffuse = max(5.0 - 2.0 * c1 - 3.0 * c1 * near - 3.0 * forward, 0.0);
+        diffuse = diffuse_in_slab(upright, near, whole);
     }
     if leak > 0.0 {
-        diffuse = leaking(near, whole, forward, leak);
+        diffuse = leaking(upright, near, whole, leak);
     }
     // Powder: at a sunlit rim there is little behind that could send light back (Schneider 2015). The slab knows that;
     // the control takes more.
-    let powder = 1.0 - 0.5 * clouds.powder * straight * (0.5 - 0.5 * lobes.nu);
-    return vec3f(sum) + powder * absorbed(whole) * diffuse / (4.0 * PI);
+    let powder = 1.0 - 0.5 * clouds.powder * exp(-before) * (0.5 - 0.5 * lobes.nu);
+    return vec3f(forward_light(lobes, before)) + powder * absorbed(whole) * diffuse / (4.0 * PI);
+}
+
+// What comes straight or was scattered by small angles alone; of that, what the lobes leave out is even.
+fn forward_light(lobes: Lobes, before: f32) -> f32 {
+    let g = clouds.asymmetry;
+    let x = g * before * clouds.albedo.g;
+    let straight = exp(-before);
+    let sum = straight * exponential_sum(x, lobes.first, lobes.second);
+    let passed = straight * exponential_sum(x, lobes.first_counts, lobes.second_counts);
+    return sum + max(exp(-(1.0 - g) * before) - passed, 0.0) / (4.0 * PI);
+}
+
+// U(τ) of light that falls at a cosine μ.
+fn diffuse_in_slab(cosine: f32, near: f32, whole: f32) -> f32 {
+    let through = cosine * slab_transmission(0.0, cosine, whole);
+    return max(cosine * (3.0 * cosine + 2.0) - through * (2.0 + 3.0 * near) - 3.0 * cosine * cosine * exp(-near / cosine), 0.0);
+}
+
+// How deep in a slab, on the average, that is which is seen from one of its sides at a cosine: ∫ x e^{-x/μ} dx / ∫ e^{-x/μ} dx.
+fn depth_seen(cosine: f32, whole: f32) -> f32 {
+    let even = max(1.0 - clouds.asymmetry, 1e-3);
+    let t = even * whole / cosine;
+    // f32 loses the difference where there is little.
+    let seen = select(1.0 - t / (exp(min(t, 80.0)) - 1.0), t * (0.5 - t / 12.0), t < 0.05);
+    return min(seen * cosine / even, whole);
 }
 
 // U(τ) of a column that loses light at its sides. Across a square of width W, with U = 0 at Milne's 2/3 beyond its sides,
-// the slowest mode cos(πx/w) cos(πy/w), w = W + 4/3, gives U'' = m² U - 3E e^{-τ}, m = π√2/w. A heap is about as wide as
+// the slowest mode cos(πx/w) cos(πy/w), w = W + 4/3, gives U'' = m² U - 3E e^{-τ/μ}, m = π√2/w. A heap is about as wide as
 // deep: W = 4T/3 brings pictures of one cloud at several densities closest to a path tracer's (`tests/clouds/mitsuba.rs`). Then
-// m = 3π√2/4/(1 + T), and U = c e^{-τ} + p e^{-mτ} + q e^{-m(T-τ)}, c = 3E/(m² - 1), with Marshak's boundaries at both ends.
-fn leaking(near: f32, whole: f32, forward: f32, leak: f32) -> f32 {
-    let wanted = leak * HEAP / (1.0 + whole);
-    // c has a pole at m = 1 which p and q cancel; f32 does not.
-    let m = select(wanted, 1.01, abs(wanted - 1.0) < 0.01);
-    let c = 3.0 / (m * m - 1.0);
+// m = 3π√2/4/(1 + T), and U = c e^{-τ/μ} + p e^{-mτ} + q e^{-m(T-τ)}, c = 3E μ²/(m²μ² - 1), with Marshak's boundaries at both ends.
+fn leaking(cosine: f32, near: f32, whole: f32, leak: f32) -> f32 {
+    let wanted = leak * HEAP / (1.0 + whole) * cosine;
+    // c has a pole at mμ = 1 which p and q cancel; f32 does not.
+    let turned = select(wanted, 1.01, abs(wanted - 1.0) < 0.01);
+    let m = turned / cosine;
+    let c = 3.0 * cosine * cosine / (turned * turned - 1.0);
     let across = exp(-m * whole);
     let out = 1.0 + 2.0 / 3.0 * m;
     let back = (1.0 - 2.0 / 3.0 * m) * across;
-    let top = -5.0 / 3.0 * c;
-    let base = -c / 3.0 * exp(-whole);
+    let slope = 2.0 / (3.0 * cosine);
+    let top = -(1.0 + slope) * c;
+    let base = -(1.0 - slope) * c * exp(-whole / cosine);
     let scale = 1.0 / (out * out - back * back);
     let down = exp(-m * near);
-    return max(c * forward + scale * ((top * out - base * back) * down + (base * out - top * back) * across / down), 0.0);
+    return max(c * exp(-near / cosine) + scale * ((top * out - base * back) * down + (base * out - top * back) * across / down), 0.0);
 }
 
 const HEAP = 3.3322;

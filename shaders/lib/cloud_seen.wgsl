@@ -7,7 +7,7 @@ import package::lib::cloud_march::{FIRST_SHEET, OPAQUE};
 import package::lib::cloud_nodes::{NODES, Nodes};
 import package::lib::cloud_on_ground::lit_past_ground;
 import package::lib::cloud_ray::{COARSEST_PIXEL, CloudRay, air, place_at, view};
-import package::lib::cloud_source::{AirBefore, Surroundings, air_before, air_under_clouds, linear_clamp, sheet_source, source_at, surroundings};
+import package::lib::cloud_source::{AirBefore, Surroundings, air_before, air_under_base, air_under_clouds, kept_from_air_among_clouds, linear_clamp, sheet_source, source_at, surroundings};
 import package::lib::geometry::{altitude_after, edge_cosine};
 import package::lib::shaft_lattice::{Lost, lost_of};
 
@@ -36,6 +36,7 @@ fn clouds_seen(ray: CloudRay, nodes: Nodes, lost: Lost) -> vec4f {
     if lost.from_m > 0.0 {
         lost_from = air_before(ray, lost.from_m).single;
     }
+    let under = air_under_base(ray);
     var in_air: LostInAir;
     if CLOUD_AIR {
         in_air = lost_in_air(cloud_air_table, linear_clamp, ray.direction, view.up, edge_cosine(air.radius_m, view.altitude_m));
@@ -65,16 +66,17 @@ fn clouds_seen(ray: CloudRay, nodes: Nodes, lost: Lost) -> vec4f {
             }
             if index >= FIRST_SHEET {
                 let sheet = clouds.sheets[index - FIRST_SHEET];
-                source = sheet_source(index - FIRST_SHEET, p, sheet_optical_depth(sheet, p, sheet.height_m), dimmed(surroundings(p, sheet.height_m), lit), lobes);
+                source = sheet_source(index - FIRST_SHEET, p, ray.direction, sheet_optical_depth(sheet, p, sheet.height_m), dimmed(surroundings(p, sheet.height_m), lit), lobes);
             }
             var hidden = lost_of(lost, before.single - lost_from, distance_m);
             if CLOUD_AIR {
                 hidden = min(hidden + lost_before(in_air, before.single, distance_m - ray.air_from_m), before.single);
             }
+            hidden += kept_from_air_among_clouds(under, before, altitude_m);
             light += four.share[k] * (before.left * source + before.single + before.multiple - hidden);
         }
     }
     // What is left of an opaque cloud is nothing.
     let left = 1.0 - dot(nodes.first.share + nodes.second.share, vec4f(1.0));
-    return vec4f(light + air_under_clouds(ray), select(left, 0.0, left < 1.001 * OPAQUE));
+    return vec4f(light + air_under_clouds(under), select(left, 0.0, left < 1.001 * OPAQUE));
 }

@@ -4,7 +4,7 @@ import package::lib::aerial::aerial_to;
 import package::lib::cloud_air::scattered_under_clouds;
 import package::lib::cloud::{CloudBand, band_at, clouds};
 import package::lib::cloud_far::BLURRED;
-import package::lib::cloud_light::{Lobes, ambient_source, lit_source};
+import package::lib::cloud_light::{Lobes, ambient_source, depth_seen, lit_source};
 import package::lib::cloud_ray::{CloudRay, air, view};
 import package::lib::cloud_shade::{CloudShade, LightDepth, beyond_maps, depths_beyond, light_column, light_cosine, shade_depth};
 import package::lib::cloud_volume::coarse_extinction;
@@ -155,28 +155,48 @@ fn source_at(index: u32, p: vec3f, altitude_m: f32, extinction_per_m: f32, aroun
     let deck = abs(light_cosine(mu_s)) * select(vec2f(way.behind, way.before), vec2f(way.before, way.behind), mu_s >= 0.0);
     let up = mix(deck.x, heap.x, band.leak);
     let down = mix(deck.y, heap.y, band.leak);
-    let direct = around.sun * exp(-over) * lit_source(lobes, way.before, way.behind, band.leak);
+    let direct = around.sun * exp(-over) * lit_source(lobes, abs(light_cosine(mu_s)), way.before, way.behind, band.leak);
     return clouds.albedo * (direct + around.above * ambient_source(up, down) + around.below * ambient_source(down, up));
 }
 
-// A thin layer: its light scattered once with the phase function, and the rest as a slab's.
-fn sheet_source(index: u32, p: vec3f, depth: f32, around: Surroundings, lobes: Lobes) -> vec3f {
+// A layer without thickness, of an optical depth: its light is that of a slab, at the depth that is seen of it on the average, so
+// that a thick one sends down what the ground gets through it.
+fn sheet_source(index: u32, p: vec3f, direction: vec3f, depth: f32, around: Surroundings, lobes: Lobes) -> vec3f {
     let sheet = clouds.sheets[index];
-    let over = shade_depth(shade, shade_maps, linear_clamp, clouds.radius_m, p, sheet.height_m + 1.0, view.sun, around.mu_s);
-    // Half the way in, towards the light.
-    let before = 0.5 * depth / max(abs(around.mu_s), 0.05);
-    let direct = around.sun * exp(-over) * lit_source(lobes, before, before, 0.0);
-    let even = (around.above + around.below) * ambient_source(0.5 * depth, 0.5 * depth);
-    return clouds.albedo * (direct + even);
+    let shaded = shade_depth(shade, shade_maps, linear_clamp, clouds.radius_m, p, sheet.height_m + 1.0, view.sun, around.mu_s);
+    let mu = dot(normalize(p + vec3f(0.0, 0.0, clouds.radius_m)), direction);
+    let seen = depth_seen(max(abs(mu), 0.05), depth);
+    let over = select(seen, depth - seen, mu > 0.0);
+    let under = depth - over;
+    let cosine = max(abs(around.mu_s), 0.05);
+    let ways = select(vec2f(under, over), vec2f(over, under), around.mu_s >= 0.0) / cosine;
+    let direct = around.sun * exp(-shaded) * lit_source(lobes, cosine, ways.x, ways.y, 0.0);
+    return clouds.albedo * (direct + around.above * ambient_source(over, under) + around.below * ambient_source(under, over));
+}
+
+// The air of a ray that begins under all clouds, up to the lowest base; none of another.
+fn air_under_base(ray: CloudRay) -> AirBefore {
+    if view.altitude_m >= shade.base_m {
+        return AirBefore(vec3f(0.0), vec3f(0.0), vec3f(1.0));
+    }
+    return air_before(ray, min(distance_to_top(clouds.radius_m, shade.base_m, view.altitude_m, ray.mu), ray.stop_m));
 }
 
 // Under the clouds the air gets what they let through, on average: this is what that adds to the light of clear air that is
 // scattered more than once, or takes from it.
-fn air_under_clouds(ray: CloudRay) -> vec3f {
-    if view.altitude_m >= shade.base_m {
+fn air_under_clouds(under: AirBefore) -> vec3f {
+    let added = scattered_under_clouds(air, view, shade, transmittance_table, linear_clamp, under.left);
+    return added - (1.0 - shade.diffuse_left) * under.multiple;
+}
+
+// And from the lowest base up to a place among the clouds, where ever less of them stands over it: up to their top this is taken
+// to change evenly.
+fn kept_from_air_among_clouds(under: AirBefore, before: AirBefore, altitude_m: f32) -> vec3f {
+    if view.altitude_m >= shade.base_m || clouds.band_count == 0u {
         return vec3f(0.0);
     }
-    let up_m = distance_to_top(clouds.radius_m, shade.base_m, view.altitude_m, ray.mu);
-    let under = air_before(ray, min(up_m, ray.stop_m));
-    return scattered_under_clouds(air, view, shade, transmittance_table, linear_clamp, under.left) - (1.0 - shade.diffuse_left) * under.multiple;
+    let thickness_m = clouds.bands[clouds.band_count - 1u].top_m - shade.base_m;
+    let x = max(altitude_m - shade.base_m, 0.0) / max(thickness_m, 1.0);
+    let kept = (1.0 - shade.diffuse_left) * select(0.5 / max(x, 1.0), 1.0 - 0.5 * x, x < 1.0);
+    return kept * max(before.multiple - under.multiple, vec3f(0.0));
 }

@@ -33,14 +33,15 @@ pub(crate) fn share_below(v: f64, k: f64) -> f64 {
 
 /// Radiation in a slab without absorption in the diffusion limit: the integral U over all directions, by finite volumes.
 /// The flux is F = -U'/3 in optical depth of even scattering; no light but what is told comes in: at the top
-/// U/4 + F/2 = `on_top`, at the base U/4 - F/2 = 0. A beam of unit irradiance straight down feeds e^{-τ}.
-pub(crate) fn diffused(whole: f64, beam: bool, on_top: f64, at: f64) -> f64 {
+/// U/4 + F/2 = `on_top`, at the base U/4 - F/2 = 0. A beam of unit irradiance that falls at a cosine μ feeds e^{-τ/μ}, and
+/// `lost` of U leaves at the sides.
+pub(crate) fn diffused(whole: f64, beam: Option<f64>, on_top: f64, lost: f64, at: f64) -> f64 {
     const CELLS: usize = 4000;
     let step = whole / CELLS as f64;
     // (F out - F in) of each cell is its source, a tridiagonal system solved from the top: U[i] = p[i] + q[i] U[i+1].
     let source = |i: usize| {
-        let edge = |k: usize| (-step * k as f64).exp();
-        if beam { edge(i) - edge(i + 1) } else { 0.0 }
+        let edge = |k: usize, mu: f64| mu * (-step * k as f64 / mu).exp();
+        beam.map_or(0.0, |mu| edge(i, mu) - edge(i + 1, mu))
     };
     let between = 1.0 / (3.0 * step);
     // Half a cell to the face, then U/4 = F/2 there: F = U / (2 + 3 step / 2).
@@ -53,12 +54,9 @@ pub(crate) fn diffused(whole: f64, beam: bool, on_top: f64, at: f64) -> f64 {
         } else {
             (between * (1.0 - q[i - 1]), source(i) + between * p[i - 1])
         };
-        p[i] = brought / (above + below);
-        q[i] = if i + 1 < CELLS {
-            below / (above + below)
-        } else {
-            0.0
-        };
+        let out = above + below + lost * step;
+        p[i] = brought / out;
+        q[i] = if i + 1 < CELLS { below / out } else { 0.0 };
     }
     let mut u = vec![0.0; CELLS];
     for i in (0..CELLS).rev() {

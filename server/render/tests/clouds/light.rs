@@ -6,7 +6,8 @@ use welkin_scene::{Quality, renderer::Output};
 
 /// A closed deck, seen from below.
 fn deck(changes: Value) -> Seen {
-    let base = json!({"coverage": 1.0, "weather_map": {"kind": "uniform", "coverage": 1, "type": 0.5, "rain": 1},
+    // The air under it lies in its shadow, or its light would be most of what is seen.
+    let base = json!({"coverage": 1.0, "shadows": true, "weather_map": {"kind": "uniform", "coverage": 1, "type": 0.5, "rain": 1},
                       "layers": [{"kind": "volume", "base_m": 800, "top_m": 1600}]});
     seen(&clouds(crate::scenes::merged(base, &changes)))
 }

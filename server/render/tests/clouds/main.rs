@@ -17,4 +17,5 @@ mod night;
 mod scenes;
 mod shapes;
 mod steady;
+mod under;
 mod wind;

@@ -135,23 +135,84 @@ fn pairs() -> Vec<[f32; 8]> {
 #[test]
 fn light_in_a_slab_is_the_solution_of_diffusion() {
     let engine = engine();
-    let statement = "x = 4.0 * PI * vec4f(lit_source(forward_lobes(0.3), a.x, a.y, 0.0).x, ambient_source(a.x, a.y).x, 0.0, 0.0);";
-    let rows = pairs();
-    for (row, found) in rows.iter().zip(with(&engine.gpu, &plain(), statement, &rows)) {
-        let (before, behind) = (f64::from(row[0]), f64::from(row[1]));
-        let lit = (-before).exp() + diffused(before + behind, true, 0.0, before);
-        let even = diffused(before + behind, false, 1.0, before);
-        // The cells' size: values at the slab's edge stand half a cell inside, of U' = 3 F there.
-        let allowed = 2e-3 * (1.0 + before + behind);
+    let statement = "x = 4.0 * PI * vec4f(lit_source(forward_lobes(0.3), a.z, a.x, a.y, 0.0).x, ambient_source(a.x, a.y).x, 0.0, 0.0);";
+    for mu in [1.0, 0.4, 0.1] {
+        let slanted = |[before, behind, ..]: [f32; 8]| row(&[before.into(), behind.into(), mu]);
+        let rows: Vec<_> = pairs().into_iter().map(slanted).collect();
+        for (row, found) in rows.iter().zip(with(&engine.gpu, &plain(), statement, &rows)) {
+            let (before, behind) = (f64::from(row[0]), f64::from(row[1]));
+            let whole = before + behind;
+            // The depths of light are along its own way.
+            let lit = (-before).exp() + diffused(mu * whole, Some(mu), 0.0, 0.0, mu * before);
+            let even = diffused(whole, None, 1.0, 0.0, before);
+            // The cells' size: values at the slab's edge stand half a cell inside, of U' = 3 F there.
+            let allowed = 2e-3 * (1.0 + whole);
+            assert!(
+                (f64::from(found[0]) - lit).abs() < allowed,
+                "{row:?}: lit {}, not {lit}",
+                found[0]
+            );
+            assert!(
+                (f64::from(found[1]) - even).abs() < allowed,
+                "{row:?}: even {}, not {even}",
+                found[1]
+            );
+        }
+    }
+}
+
+/// U'' = m² U less its sources: m²/3 of U leaves at the sides. The more of a heap a cloud is, the less light's slant counts.
+#[test]
+fn light_in_a_heap_is_the_solution_of_diffusion_with_losses() {
+    let engine = engine();
+    let statement =
+        "x = vec4f(4.0 * PI * lit_source(forward_lobes(0.3), a.z, a.x, a.y, a.w).x, HEAP, 0.0, 0.0);";
+    for (mu, leak) in [(1.0, 1.0), (0.3, 1.0), (0.3, 0.5), (0.8, 0.2)] {
+        let heaped = |[before, behind, ..]: [f32; 8]| row(&[before.into(), behind.into(), mu, leak]);
+        let rows: Vec<_> = pairs().into_iter().map(heaped).collect();
+        for (row, found) in rows.iter().zip(with(&engine.gpu, &plain(), statement, &rows)) {
+            let upright = mu + (1.0 - mu) * leak;
+            let (before, whole) = (
+                upright * f64::from(row[0]),
+                upright * (f64::from(row[0]) + f64::from(row[1])),
+            );
+            let m = leak * f64::from(found[1]) / (1.0 + whole);
+            let lit = (-f64::from(row[0])).exp() + diffused(whole, Some(upright), 0.0, m * m / 3.0, before);
+            // As above, and what moves the pole aside.
+            let allowed = 2e-3 * (1.0 + whole) + 0.01 * lit;
+            assert!(
+                (f64::from(found[0]) - lit).abs() < allowed,
+                "{row:?}: {}, not {lit}",
+                found[0]
+            );
+        }
+    }
+}
+
+/// The mean depth of what a look at a slab sees, weighted by how much of it comes out.
+#[test]
+fn of_a_slab_is_seen_what_light_leaves_it() {
+    let engine = engine();
+    let mut rows = Vec::new();
+    for mu in [0.05, 0.3, 1.0] {
+        rows.extend(DEPTHS.map(|whole| row(&[mu, whole])));
+    }
+    let found = with(&engine.gpu, &plain(), "x.x = depth_seen(a.x, a.y);", &rows);
+    for (row, found) in rows.iter().zip(found) {
+        let [mu, whole] = [row[0], row[1]].map(f64::from);
+        const STEPS: u32 = 100_000;
+        let (mut moment, mut sum) = (0.0, f64::MIN_POSITIVE);
+        for k in 0..STEPS {
+            let x = whole * (f64::from(k) + 0.5) / f64::from(STEPS);
+            moment += x * (-x / mu).exp();
+            sum += (-x / mu).exp();
+        }
+        // What f32 leaves of the difference of two nearly alike.
         assert!(
-            (f64::from(found[0]) - lit).abs() < allowed,
-            "{row:?}: lit {}, not {lit}",
-            found[0]
-        );
-        assert!(
-            (f64::from(found[1]) - even).abs() < allowed,
-            "{row:?}: even {}, not {even}",
-            found[1]
+            (f64::from(found[0]) - moment / sum).abs() < 1e-3 * mu,
+            "{row:?}: {} {}",
+            found[0],
+            moment / sum
         );
     }
 }
@@ -188,7 +249,7 @@ fn a_thin_cloud_scatters_what_it_takes() {
         let found = with(
             &engine.gpu,
             &clouds,
-            "x.x = lit_source(forward_lobes(a.x), a.y, a.z, 0.0).x;",
+            "x.x = lit_source(forward_lobes(a.x), 1.0, a.y, a.z, 0.0).x;",
             &rows,
         );
         let sum: f64 = nodes
@@ -224,7 +285,7 @@ fn what_a_slab_lets_through_is_its_twin_and_what_is_left_inside() {
         assert!((0.0..1.0 + 1e-6).contains(&found[0]), "{row:?}: {}", found[0]);
         if mu == 1.0 && g == 0.0 && depth > 0.0 {
             // Straight through, and half of U at the base.
-            let inside = (-depth).exp() + 0.5 * diffused(depth, true, 0.0, depth);
+            let inside = (-depth).exp() + 0.5 * diffused(depth, Some(mu), 0.0, 0.0, depth);
             assert!((expected - inside).abs() < 3e-3, "{depth}: {expected}, {inside}");
         }
     }
