@@ -15,22 +15,17 @@ use tempfile::TempDir;
 /// Long enough for a loaded machine; only a hang takes this long.
 const PATIENCE: Duration = Duration::from_secs(60);
 
-fn free_port() -> u16 {
-    TcpListener::bind("127.0.0.1:0")
-        .unwrap()
-        .local_addr()
-        .unwrap()
-        .port()
-}
-
-/// SeaweedFS also listens ten thousand ports above each.
+/// A free port below those that the system gives to whoever calls out: one of these could be taken while its server is
+/// down. SeaweedFS also listens ten thousand ports above each.
 fn low_port() -> u16 {
+    const FIRST: u16 = 12_000;
+    const ABOVE: u16 = 10_000;
     static NEXT: AtomicU16 = AtomicU16::new(0);
-    let spread = std::process::id() % 1000 * 20;
+    let spread = std::process::id() % 500 * 20;
     loop {
-        let port = 20_000 + (spread as u16 + NEXT.fetch_add(1, Ordering::Relaxed)) % 20_000;
+        let port = FIRST + (spread as u16 + NEXT.fetch_add(1, Ordering::Relaxed)) % ABOVE;
         let is_free = |port: u16| TcpListener::bind(("127.0.0.1", port)).is_ok();
-        if is_free(port) && is_free(port + 10_000) {
+        if is_free(port) && is_free(port + ABOVE) {
             return port;
         }
     }
@@ -75,7 +70,7 @@ impl Postgres {
     pub(crate) fn start() -> Self {
         let folder = TempDir::with_prefix("welkin-postgres-").unwrap();
         let mut postgres = Self {
-            port: free_port(),
+            port: low_port(),
             process: None,
             folder,
         };
@@ -218,6 +213,8 @@ impl S3 {
                 format!("-master.port={master}"),
             ])
             .args([format!("-volume.port={volume}"), "-volume.max=20".into()])
+            // Gateways that would listen at the same place whoever starts them.
+            .args(["-s3.port.iceberg=0", "-s3.port.lance=0"])
             .spawn()
             .unwrap();
         wait_for(s3, &mut process, "SeaweedFS");
